@@ -3,6 +3,7 @@
 #   debug       compiled without optimisation, with the standard library's assertions: all tests
 #   asan        address and undefined behaviour sanitizers in the whole program: all tests
 #   clang       compiled with clang 16: all tests
+#   firefox     the tests of the workbench in Debian's Firefox: all that run in Chromium, where a test run has some of them
 #   headers     every header compiles alone: tools/check_headers.sh --all
 #   tidy        clang-tidy with the checks of .clang-tidy over all modules: tools/tidy.sh
 #   fuzz        every fuzzer for FUZZ_SECONDS (600)
@@ -18,11 +19,12 @@
 set -euo pipefail
 {  # bash reads all of it before it begins: the checkout may change meanwhile
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-all=(debug asan clang headers tidy fuzz properties kills clean)
+all=(debug asan clang firefox headers tidy fuzz properties kills clean)
 declare -A meaning=(
   [debug]="not optimised, standard library's assertions: all tests"
   [asan]="address and undefined behaviour sanitizers: all tests"
   [clang]="compiled with clang 16: all tests"
+  [firefox]="the workbench in Firefox: all tests that run in Chromium"
   [headers]="every header compiles alone"
   [tidy]="clang-tidy over all modules: one result a source"
   [fuzz]="each fuzzer for ${FUZZ_SECONDS:=600} s"
@@ -74,9 +76,15 @@ meaning_of() {  # lane
     echo "${meaning[$1]/all tests/the tests of ${tested//$'\n'/, } only, in a run that had until $UNTIL}"
   fi
 }
-run_debug() { all_tests debug firefox; }  # in integration the tests in Firefox would take too long
+run_debug() { all_tests debug; }
 run_asan() { all_tests asan; }
 run_clang() { all_tests clang clang; }
+run_firefox() {
+  tools/setup.sh build test firefox && cmake --preset release --log-level=WARNING &&
+    cmake --build --preset release --target mansard -j "$jobs" || return
+  MANSARD_BINARY=$PWD/build/release/bin/mansard MANSARD_DATA=$PWD/data \
+    apps/workbench/tests/run.sh firefox build/release/apps/server/page/workbench
+}
 run_headers() { tools/setup.sh build python && JOBS=$jobs tools/check_headers.sh --all; }
 run_tidy() { JOBS=$jobs tools/tidy.sh; }
 run_fuzz() { tools/fuzz.sh "$FUZZ_SECONDS"; }
@@ -116,6 +124,12 @@ results_of() {  # lane
     lane ~ /^(properties|kills)$/ && /^\[  PASSED  \] [0-9]+ test/ { passed += $4 }
     lane ~ /^(properties|kills)$/ && /^\[  FAILED  \] [0-9]+ test/ { failed += $4; next }
     lane ~ /^(properties|kills)$/ && /^\[  FAILED  \] / { sub(",", "", $4); add($4) }
+    lane == "firefox" && /^  [0-9]+ passed / { passed += $1 }
+    lane == "firefox" && /^  [0-9]+ skipped$/ { skipped += $1 }
+    lane == "firefox" && /^  [0-9]+ (failed|interrupted|flaky)$/ { failed += $1 }
+    lane == "firefox" && /^  [0-9]+\) .* › / {
+      sub(/^.*:[0-9]+:[0-9]+ › /, ""); sub(/ *(─)*$/, ""); gsub(/ @[a-z]+/, ""); gsub(/,/, ""); add($0)
+    }
     lane ~ /^(debug|asan|clang|clean)$/ && /^[0-9]+% tests passed, [0-9]+ tests? failed out of [0-9]+$/ {
       failed += $4; passed += $NF - $4; summary = 1
     }

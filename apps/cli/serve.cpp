@@ -13,6 +13,7 @@
 #include "apps/cli/verbs.hpp"
 #include "apps/server/guard.hpp"
 #include "apps/server/server.hpp"
+#include "mansard/formats/ground_tiles.hpp"
 #include "mansard/formats/input_name.hpp"
 
 namespace mansard::cli {
@@ -76,13 +77,18 @@ auto serve(const ServeRequest& request, const base::Cancel& cancel) -> int {
   auto options = request.options;
   options.project = request.project;
   options.sample = request.sample.empty() ? own_sample() : fs::path(request.sample);
-  if (!request.basemap.empty()) options.basemap = fs::absolute(request.basemap);
   options.upload_limit = request.upload_limit << 20;
   std::error_code status;
   if (!request.sample.empty() && !fs::is_directory(options.sample, status))
     return give_up(base::error("server-sample", "the folder does not exist; check --sample", request.sample));
-  if (!request.basemap.empty())
+  if (formats::is_ground_tiles(request.basemap)) {
+    const auto pattern = formats::ground_tiles_pattern(request.basemap);
+    if (!pattern) return give_up(pattern.errors());
+    options.basemap.tiles = *pattern;
+  } else if (!request.basemap.empty()) {
     if (auto there = formats::check_input(request.basemap); !there) return give_up(there.error());
+    options.basemap.file = fs::absolute(request.basemap);
+  }
   base::limit_threads(request.jobs);
   if (!server::is_loopback(options.address))
     std::fprintf(
@@ -116,9 +122,16 @@ auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   verb->add_option("--sample", request->sample,
                    "Folder with meshes and a file 'footprints', offered to empty projects as a sample")
       ->type_name("DIR");
-  verb->add_option("--basemap", request->basemap,
-                   "Picture of the ground, offered as a layer under the models: a raster that says where it is")
-      ->type_name("FILE");
+  auto* basemap =
+      verb->add_option("--basemap", request->basemap,
+                       "Picture of the ground, offered as a layer under the models: a raster that says where "
+                       "it is; a folder of tiles; or tiles on a server, as https://…/{z}/{x}/{y}.png, which "
+                       "are fetched when the layer is shown")
+          ->type_name("FILE|FOLDER|URL");
+  verb->add_option("--basemap-attribution", request->options.basemap.attribution,
+                   "Text to show with the basemap, as its licence asks for: '© OpenStreetMap contributors'")
+      ->type_name("TEXT")
+      ->needs(basemap);
   verb->add_option("--upload-limit", request->upload_limit, "Maximum size of an uploaded file, in MB")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 24));
   add_jobs(*verb, request->jobs);

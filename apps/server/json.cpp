@@ -243,22 +243,16 @@ auto id_of(const picture::Tile& tile) -> std::string {
   return std::to_string(tile.level) + "-" + std::to_string(tile.column) + "-" + std::to_string(tile.row);
 }
 
-auto json_of(std::span<const picture::Tile> tiles) -> Json {
-  Json infos = Json::array();
-  std::size_t levels = 0;
-  for (const auto& tile : tiles) {
-    levels = std::max(levels, tile.level + 1);
-    infos.push_back({{"id", id_of(tile)},
-                     {"level", tile.level},
-                     {"column", tile.column},
-                     {"row", tile.row},
-                     {"low", json_of(tile.low)},
-                     {"high", json_of(tile.high)},
-                     {"centre", json_of(tile.centre)},
-                     {"vertices", tile.positions.size() / 3},
-                     {"triangles", tile.triangles.size() / 3}});
-  }
-  return {{"levels", levels}, {"tiles", std::move(infos)}};
+auto json_of(const picture::Tile& tile) -> Json {
+  return {{"id", id_of(tile)},
+          {"level", tile.level},
+          {"column", tile.column},
+          {"row", tile.row},
+          {"low", json_of(tile.low)},
+          {"high", json_of(tile.high)},
+          {"centre", json_of(tile.centre)},
+          {"vertices", tile.positions.size() / 3},
+          {"triangles", tile.triangles.size() / 3}};
 }
 
 auto json_of(const model::Scene& scene, std::span<const block::Block> blocks, std::vector<Json> shown) -> Json {

@@ -51,7 +51,7 @@ using Json = nlohmann::ordered_json;
 /// Id of a tile: "1-3-4".
 [[nodiscard]] auto id_of(const picture::Tile& tile) -> std::string;
 /// TileIndex.
-[[nodiscard]] auto json_of(std::span<const picture::Tile> tiles) -> Json;
+[[nodiscard]] auto json_of(const picture::Tile& tile) -> Json;
 
 /// A block with its mesh.
 [[nodiscard]] auto json_of(const block::Block& block, const model::Scene& scene) -> Json;

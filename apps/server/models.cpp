@@ -30,6 +30,12 @@ auto Models::view() const -> std::shared_ptr<const View> {
   return view_;
 }
 
+auto Models::extent() const -> geometry::Box2 {
+  geometry::Box2 box;
+  for (const auto& building : view()->buildings) box.include(building->box);
+  return box;
+}
+
 auto Models::all() const -> std::string {
   const auto now = view();
   std::vector<std::size_t> which(now->buildings.size());

@@ -109,6 +109,8 @@ class Models {
   [[nodiscard]] auto solids_of(const std::string& building) const -> base::Result<Solids>;
 
   [[nodiscard]] auto frame() const -> const model::Frame& { return city_.frame; }
+  /// The box of all plans, in the frame; empty if there are none.
+  [[nodiscard]] auto extent() const -> geometry::Box2;
   [[nodiscard]] auto options() const -> const pipeline::Options& { return options_; }
 
  private:

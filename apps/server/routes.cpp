@@ -185,7 +185,7 @@ auto matches(const Route& route, const std::vector<std::string_view>& words, Wor
 
 /// The HTTP status of a diagnostic code.
 auto status_of(std::string_view code) -> int {
-  static constexpr std::array<std::pair<std::string_view, int>, 35> known{{
+  static constexpr std::array<std::pair<std::string_view, int>, 36> known{{
       {"server-body", 400},        {"option-value", 400},      {"option-unknown", 400},
       {"file-missing", 400},       {"server-upload", 400},     {"server-token", 401},
       {"server-host", 403},        {"server-origin", 403},     {"server-path", 404},
@@ -197,7 +197,7 @@ auto status_of(std::string_view code) -> int {
       {"server-large", 413},       {"server-listeners", 503},  {"server-exists", 409},
       {"server-changed", 409},     {"server-damaged", 409},    {"server-archive", 400},
       {"server-no-textures", 404}, {"pipeline-nothing", 409},  {"terrain-no-ground", 409},
-      {"terrain-extent", 409},     {"server-no-basemap", 409},
+      {"terrain-extent", 409},     {"server-no-basemap", 409}, {"ingest-ground-tiles", 409},
   }};
   const auto at = std::ranges::find(known, code, &std::pair<std::string_view, int>::first);
   if (at != known.end()) return at->second;

@@ -1,5 +1,6 @@
 #include "apps/server/scene.hpp"
 
+#include <malloc.h>
 #include <algorithm>
 #include <limits>
 
@@ -29,12 +30,13 @@ auto OpenScene::read(const Inputs& inputs, const base::Run& run) -> base::Result
   out->mesh_box_ = geometry::Box3::of(out->scene_.mesh.vertices);
   std::vector<Json> blocks;
   if (auto divided = out->divide(options.block, run, blocks); !divided) return divided.failure();
+  ::malloc_trim(0);  // what dividing took is not kept beside what the tiles take
   run.report("tiles", inputs.meshes.front(), 0.95);
-  auto tiles = picture::tiles(out->scene_.mesh, {}, run);
-  if (run.cancelled()) return base::error("cancelled", "stopped on request");
   for (std::size_t b = 0; b < out->blocks_.size(); ++b)
     for (const auto& member : out->blocks_[b].members) out->block_of_[out->scene_.feature(member.feature).id] = b;
-  auto view = SceneView::make(text_of(json_of(out->scene_, out->blocks_, std::move(blocks))), std::move(tiles));
+  auto view = SceneView::make(text_of(json_of(out->scene_, out->blocks_, std::move(blocks))),
+                              [&](const picture::TakeTile& take) { picture::tiles(out->scene_.mesh, {}, run, take); });
+  if (run.cancelled()) return base::error("cancelled", "stopped on request");
   if (!view) return view.failure();
   out->view_ = std::move(*view);
   out->meshes_->put(out->blocks_.size(), out->scene_.mesh);

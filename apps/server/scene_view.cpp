@@ -38,16 +38,19 @@ auto read_at(int file, std::uint64_t offset, std::size_t count) -> std::optional
 
 }  // namespace
 
-auto SceneView::make(std::string scene_json, std::vector<picture::Tile> tiles)
+auto SceneView::make(std::string scene_json, const std::function<void(const picture::TakeTile&)>& tiles)
     -> base::Result<std::shared_ptr<const SceneView>> {
   static_assert(std::endian::native == std::endian::little);
   const std::shared_ptr<SceneView> view(new SceneView);
   view->scene_json_ = std::move(scene_json);
-  view->tiles_json_ = text_of(json_of(tiles));
   auto spool = base::Spool::open();
   if (!spool) return spool.failure();
   view->spool_ = std::move(*spool);
-  for (auto& tile : tiles) {
+  Json list = Json::array();
+  std::size_t levels = 0;
+  tiles([&](picture::Tile tile) {
+    list.push_back(json_of(tile));
+    levels = std::max(levels, tile.level + 1);
     Place place{{}, view->spool_->size(), tile.positions.size() / 3, tile.triangles.size() / 3};
     std::string bytes;
     append_all(bytes, std::vector<std::uint32_t>{static_cast<std::uint32_t>(place.vertices),
@@ -60,7 +63,8 @@ auto SceneView::make(std::string scene_json, std::vector<picture::Tile> tiles)
     tile.triangles = std::vector<std::uint32_t>();
     place.tile = std::move(tile);
     view->tiles_.emplace(id_of(place.tile), std::move(place));
-  }
+  });
+  view->tiles_json_ = text_of({{"levels", levels}, {"tiles", std::move(list)}});
   view->size_ = view->spool_->size();
   return std::shared_ptr<const SceneView>(view);
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -23,8 +24,8 @@ namespace mansard::server {
 /// mesh.
 class SceneView {
  public:
-  /// Fails with "file-write".
-  [[nodiscard]] static auto make(std::string scene_json, std::vector<picture::Tile> tiles)
+  /// `tiles` gives the tiles, as picture::tiles does. Fails with "file-write".
+  [[nodiscard]] static auto make(std::string scene_json, const std::function<void(const picture::TakeTile&)>& tiles)
       -> base::Result<std::shared_ptr<const SceneView>>;
   /// The view that was kept in a file with this key; null if there is none, or it is damaged.
   [[nodiscard]] static auto open(const std::filesystem::path& path, const std::string& key)

@@ -2,6 +2,7 @@
 #include "apps/server/server.hpp"
 
 #include <httplib.h>
+#include <malloc.h>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -353,6 +354,9 @@ class Web {
 
 auto serve(const Options& options, const base::Cancel& cancel,
            const std::function<void(const std::string& link)>& ready) -> base::Result<void> {
+  // Otherwise the C library raises this to what was freed last, up to 32 MB, and large arrays of a reading leave holes
+  // of that size between what stays.
+  ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
   auto project = Project::open(options.project);
   if (!project) return project.error();
   auto workspace = Workspace::open(std::move(*project), options.sample);

@@ -12,12 +12,19 @@
 
 namespace mansard::server {
 
+/// A picture of the ground that pages can show: a raster, or tiles; neither: none.
+struct Basemap {
+  std::filesystem::path file;
+  std::string tiles;        ///< the pattern of their names, as formats::ground_tiles_pattern gives it
+  std::string attribution;  ///< to be shown with it
+};
+
 struct Options {
-  std::filesystem::path project = "mansard-project";    ///< created if it is missing
-  std::string address = "127.0.0.1";                    ///< to listen on
-  int port = 8642;                                      ///< 0: any free port
-  std::filesystem::path sample;                         ///< folder with meshes and footprints; empty: none
-  std::filesystem::path basemap;                        ///< a picture of the ground; empty: none
+  std::filesystem::path project = "mansard-project";  ///< created if it is missing
+  std::string address = "127.0.0.1";                  ///< to listen on
+  int port = 8642;                                    ///< 0: any free port
+  std::filesystem::path sample;                       ///< folder with meshes and footprints; empty: none
+  Basemap basemap;
   std::uint64_t upload_limit = std::uint64_t{4} << 30;  ///< bytes per uploaded file
 };
 

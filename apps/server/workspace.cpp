@@ -75,7 +75,7 @@ auto Workspace::project_json() const -> Json {
   return {{"name", project_.name()},    {"folder", project_.folder().string()},
           {"inputs", std::move(files)}, {"reading", inputs ? Json(inputs->reading) : Json::object()},
           {"runs", std::move(runs)},    {"scene", scene},
-          {"sample", has_sample()}};
+          {"sample", has_sample()},     {"basemap_attribution", basemap_.attribution}};
 }
 
 auto Workspace::project() const -> Text { return text_of(project_json()); }

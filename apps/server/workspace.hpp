@@ -27,6 +27,7 @@
 #include "apps/server/project.hpp"
 #include "apps/server/requests.hpp"
 #include "apps/server/scene.hpp"
+#include "apps/server/server.hpp"
 #include "apps/server/textures.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/formats/ground_picture.hpp"
@@ -104,9 +105,10 @@ class Workspace {
   [[nodiscard]] auto attributes(const std::string& run, const std::optional<std::string>& building) -> Text;
   /// The buildings at a lower level of detail: "1.2", "1.3" or "2.0".
   [[nodiscard]] auto level(const std::string& run, const std::string& lod) -> Text;
-  /// The basemap in the frame of the run, as openapi.json describes it. Fails with "server-no-basemap" without one.
+  /// The basemap in the frame of the run, as openapi.json describes it. Fails with "server-no-basemap" without one, and
+  /// as formats::read_ground_picture and read_ground_tiles do.
   [[nodiscard]] auto basemap(const std::string& run) -> Text;
-  void set_basemap(std::filesystem::path file) { basemap_file_ = std::move(file); }
+  void set_basemap(Basemap basemap) { basemap_ = std::move(basemap); }
   /// The terrain around the models as they are.
   [[nodiscard]] auto terrain(const std::string& run) -> Text;
   /// Models of any producer, in the frame of the scene, to be shown beside those of a run. Nothing is stored.
@@ -172,9 +174,9 @@ class Workspace {
   SceneOrNone scene_;
   /// Of the project as it was when it was last open, until the inputs have been read.
   std::shared_ptr<const SceneView> kept_view_;
-  std::filesystem::path basemap_file_;  ///< set before anything is asked; empty: none
+  Basemap basemap_;  ///< set before anything is asked
   std::mutex basemap_mutex_;
-  std::map<std::string, formats::GroundPicture, std::less<>> basemaps_;  ///< by CRS
+  std::map<std::string, formats::GroundPicture, std::less<>> basemaps_;  ///< by CRS; of tiles, by place as well
   std::shared_ptr<const Textures> textures_;                             // of the scene; null until they are asked for
   std::optional<base::Diagnostic> scene_failure_;
   mutable ChangedFiles changed_files_;

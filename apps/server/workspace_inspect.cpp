@@ -1,16 +1,35 @@
 // Workspace: answers about models beyond what editing needs.
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "apps/server/ground.hpp"
 #include "apps/server/inputs.hpp"
 #include "apps/server/inspect.hpp"
 #include "apps/server/options.hpp"
 #include "apps/server/workspace.hpp"
+#include "mansard/base/text.hpp"
+#include "mansard/formats/ground_tiles.hpp"
 #include "mansard/formats/input_name.hpp"
 #include "mansard/ingest/model.hpp"
 #include "mansard/pipeline/stored.hpp"
 
 namespace mansard::server {
+namespace {
+
+constexpr std::size_t most_basemaps = 4;  // that are kept, of some 10 MB each
+
+/// What tiles are shown of around the models: their box, a quarter of it on each side, and at least 50 m; to 50 m, so
+/// that runs of the same inputs and their edits have the same picture.
+auto surroundings(const geometry::Box2& models) -> geometry::Box2 {
+  constexpr double step = 50;  // m
+  const auto size = models.most - models.least;
+  const auto wide = models.grown(std::max(step, 0.25 * std::max(size.x, size.y)));
+  return {{step * std::floor(wide.least.x / step), step * std::floor(wide.least.y / step)},
+          {step * std::ceil(wide.most.x / step), step * std::ceil(wide.most.y / step)}};
+}
+
+}  // namespace
 
 auto Workspace::attributes(const std::string& run, const std::optional<std::string>& building) -> Text {
   const auto open = models(run);
@@ -39,22 +58,36 @@ auto Workspace::level(const std::string& run, const std::string& lod) -> Text {
 }
 
 auto Workspace::basemap(const std::string& run) -> Text {
-  if (basemap_file_.empty())
-    return base::error("server-no-basemap",
-                       "there is no basemap; start 'mansard serve' with --basemap and a raster that says where it is");
+  if (basemap_.file.empty() && basemap_.tiles.empty())
+    return base::error(
+        "server-no-basemap",
+        "there is no basemap; start 'mansard serve' with --basemap and a raster that says where it is, or "
+        "the address or folder of tiles");
   const auto open = models(run);
   if (!open) return open.error();
   const auto& frame = (*open)->frame();
+  const auto x = static_cast<double>(frame.origin[0]), y = static_cast<double>(frame.origin[1]);
   constexpr int most = 4096;  // pixels along a side: 64 MB on the graphics card
+  auto key = frame.crs;
+  geometry::Box2 around;
+  if (!basemap_.tiles.empty()) {
+    const auto extent = (*open)->extent();
+    if (extent.empty())
+      return base::error("server-no-basemap", "the run has no models, so there is no ground below them");
+    around = surroundings({extent.least + geometry::Point2{x, y}, extent.most + geometry::Point2{x, y}});
+    for (const double edge : {around.least.x, around.least.y, around.most.x, around.most.y})
+      key += ' ' + base::to_text(edge);
+  }
   const std::scoped_lock lock(basemap_mutex_);
-  auto known = basemaps_.find(frame.crs);
+  auto known = basemaps_.find(key);
   if (known == basemaps_.end()) {
-    auto picture = formats::read_ground_picture(basemap_file_, frame.crs, most);
+    auto picture = basemap_.tiles.empty() ? formats::read_ground_picture(basemap_.file, frame.crs, most)
+                                          : formats::read_ground_tiles(basemap_.tiles, frame.crs, around, most);
     if (!picture) return picture.error();
-    known = basemaps_.emplace(frame.crs, std::move(*picture)).first;
+    if (basemaps_.size() >= most_basemaps) basemaps_.clear();
+    known = basemaps_.emplace(key, std::move(*picture)).first;
   }
   const auto& [png, place] = known->second;
-  const auto x = static_cast<double>(frame.origin[0]), y = static_cast<double>(frame.origin[1]);
   const std::array<double, 4> edges{place.least.x - x, place.least.y - y, place.most.x - x, place.most.y - y};
   return std::string(reinterpret_cast<const char*>(edges.data()), sizeof(edges)) + png;
 }

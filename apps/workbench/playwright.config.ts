@@ -9,9 +9,7 @@ const chromium = {
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: [
       "--no-sandbox",
-      "--use-gl=angle",
-      "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader",
+      "--enable-unsafe-swiftshader", // for WebGL alone: pages are composed without it, as where there is no graphics card
       "--disable-quic",
       "--no-first-run",
       "--disable-background-networking",
@@ -25,7 +23,11 @@ const mozilla = {
   headless: false,
   launchOptions: {
     executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr",
-    firefoxUserPrefs: { "browser.download.folderList": 2, "browser.download.dir": process.env.MANSARD_DOWNLOADS ?? "" },
+    firefoxUserPrefs: {
+      "browser.download.folderList": 2,
+      "browser.download.dir": process.env.MANSARD_DOWNLOADS ?? "",
+      "dom.w3c_touch_events.enabled": 1, // also without a touch screen
+    },
   },
 };
 

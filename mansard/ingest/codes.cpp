@@ -45,6 +45,13 @@ auto own_codes() -> std::vector<base::Code> {
        "Nothing to do; the options of the group cloud change it.", 0},
       {"ingest-raster", "A raster has no heights that can be used, has no georeference, or is in another place.",
        "Give a surface or terrain model in metres or feet; 'gdalinfo FILE' shows what GDAL says.", 3},
+      {"ingest-ground-tiles",
+       "The tiles of a basemap cannot be used: what was given is not the address or folder of tiles, the server does "
+       "not "
+       "answer or refuses, there are none at the place of the models, or what was sent is not a picture.",
+       "Open the address of a tile in a browser; check {z}, {x} and {y}, the key, the network and the proxy "
+       "(GDAL_HTTP_PROXY).",
+       3},
       {"ingest-memory", "A mesh does not fit into memory.", "Cut it into tiles, or use --bbox and a smaller one.", 3},
       {"ingest-footprints-format", "The footprints are not a vector file that GDAL reads, or it is damaged.",
        "Check the path, which comes last; 'ogrinfo FILE' shows what GDAL says.", 3},

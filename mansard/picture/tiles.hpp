@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "mansard/base/run.hpp"
@@ -36,5 +37,10 @@ struct TileOptions {
 /// smaller than a cell vanishes. Empty when cancelled. Cost: O(n log n) for n triangles.
 [[nodiscard]] auto tiles(const geometry::Mesh& mesh, const TileOptions& options = {}, const base::Run& run = {})
     -> std::vector<Tile>;
+
+using TakeTile = std::function<void(Tile)>;
+/// The same, given one after the other in the same order and on this thread: a few are in memory at a time. When
+/// cancelled, some are missing.
+void tiles(const geometry::Mesh& mesh, const TileOptions& options, const base::Run& run, const TakeTile& take);
 
 }  // namespace mansard::picture

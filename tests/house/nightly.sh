@@ -31,7 +31,7 @@ case $2 in
   nightly_says_which_lanes_were_not_run)
     nightly debug || fail "failed"
     says '^\| `debug` \| .* \| passed \| 11 \| 0 \| 2 \| 0 \| 20[0-9-]+ \| 1\.2\.3, abc1234 \|$' || fail "no row of debug"
-    for lane in asan clang headers tidy fuzz properties kills clean; do
+    for lane in asan clang firefox headers tidy fuzz properties kills clean; do
       says "^\| \`$lane\` \| .* \| not run \| \| \| \| \| \| \|$" || fail "$lane was not run"
     done
     ;;
@@ -45,7 +45,7 @@ case $2 in
     nightly debug || [[ $? -eq 1 ]] || fail "failed"
     says '^- `asan`: a\.b, a\.c$' || fail "what failed in asan is gone"
     says '^- `debug`: a\.b, a\.c$' || fail "what failed in debug is not named"
-    [[ $(grep -c '^| `' "$page") -eq 9 ]] || fail "a lane has not one row"
+    [[ $(grep -c '^| `' "$page") -eq 10 ]] || fail "a lane has not one row"
     ;;
   nightly_reports_a_lane_that_does_not_build)
     stand_in bin/cmake '[[ "$*" != *--build* ]]'
@@ -72,6 +72,15 @@ case $2 in
     says '^\| `headers` \| .* \| passed \| 1 \| 0 \| 0 \|' || fail "no row of headers"
     says '^\| `tidy` \| .* \| failed \| 1 \| 1 \| 0 \|' || fail "no row of tidy"
     says '^- `tidy`: mansard/a/b.cpp$' || fail "what failed is not named"
+    ;;
+  nightly_counts_tests_in_firefox)
+    mkdir -p "$scratch/apps/workbench/tests"
+    stand_in apps/workbench/tests/run.sh 'printf "  1) tests/w.spec.ts:10:1 › a part is split, and merged @firefox ────\n    at tests/w.spec.ts:11:2 › x\n  1 failed\n    tests/w.spec.ts:10:1 › a part is split, and merged @firefox\n  2 skipped\n  28 passed (15.1m)\n"; exit 1'
+    nightly firefox || [[ $? -eq 1 ]] || fail "failed"
+    grep -q '^tools/setup.sh build test firefox$' "$calls" || fail "Firefox was not installed"
+    grep -q '^apps/workbench/tests/run.sh firefox build/release/apps/server/page/workbench$' "$calls" || fail "not all tests"
+    says '^\| `firefox` \| .* \| failed \| 28 \| 1 \| 2 \|' || fail "no row of firefox"
+    says '^- `firefox`: a part is split and merged$' || fail "what failed is not named"
     ;;
   nightly_says_what_a_run_with_little_time_has_tested)
     mkdir -p "$scratch/cmake" "$scratch"/tests/{base,geometry,solid,cli}

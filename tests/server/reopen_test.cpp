@@ -24,9 +24,13 @@ auto some_tiles() -> std::vector<picture::Tile> {
   return tiles;
 }
 
+void give_tiles(const picture::TakeTile& take) {
+  for (auto& tile : some_tiles()) take(std::move(tile));
+}
+
 TEST(SceneView, is_kept_with_all_its_tiles_and_opened_with_the_same_key_only) {
   const Folder folder;
-  const auto made = SceneView::make(R"({"crs":"EPSG:1"})", some_tiles());
+  const auto made = SceneView::make(R"({"crs":"EPSG:1"})", give_tiles);
   ASSERT_TRUE(made);
   ASSERT_TRUE((*made)->keep(folder / "scene", "key"));
   const auto kept = SceneView::open(folder / "scene", "key");
@@ -48,7 +52,7 @@ TEST(SceneView, is_kept_with_all_its_tiles_and_opened_with_the_same_key_only) {
 
 TEST(SceneView, that_is_damaged_is_not_opened) {
   const Folder folder;
-  const auto made = SceneView::make("{}", some_tiles());
+  const auto made = SceneView::make("{}", give_tiles);
   ASSERT_TRUE(made && (*made)->keep(folder / "scene", "key"));
   const auto whole = read(folder / "scene");
   ASSERT_NE(SceneView::open(folder / "scene", "key"), nullptr);

@@ -15,6 +15,7 @@ const project = (...runs: api.RunSummary[]): api.Project => ({
   runs,
   scene: false,
   sample: false,
+  basemap_attribution: "",
 });
 const history = (done: number, ...edits: string[]): api.History => ({ edits, done });
 const job = (change: Partial<api.Job>): api.Job => ({

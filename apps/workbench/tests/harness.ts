@@ -3,6 +3,7 @@ import { type ChildProcess, execFileSync, spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, readdirSync, renameSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { deflateSync } from "node:zlib";
 import { type Page, expect, test as base } from "@playwright/test";
 
 const binary = process.env.MANSARD_BINARY;
@@ -109,4 +110,70 @@ export async function picture(page: Page, name: string, when: "when idle" | "at 
   if (when === "when idle")
     await page.evaluate(() => (window as unknown as { mansard: { view: { idle(): Promise<void> } } }).mansard.view.idle());
   await page.screenshot({ path: join(folder, `${name}.png`) });
+}
+
+export type Line = [from: [number, number], to: [number, number]];
+
+/** Moves one finger along each line, all at the same time. Playwright itself only taps: this speaks the browser's protocol. */
+export async function fingers(page: Page, lines: Line[]) {
+  const steps = 8;
+  const at = ([a, b]: Line, share: number) => ({ x: a[0] + (b[0] - a[0]) * share, y: a[1] + (b[1] - a[1]) * share });
+  if (process.env.MANSARD_BROWSER === "firefox") {
+    type Session = { sessionId: string; send(method: string, parameters: object): Promise<unknown> };
+    type Inside = { _connection: { toImpl(of: object): { delegate: { _session: Session } } } };
+    const session = (page as unknown as Inside)._connection.toImpl(page).delegate._session;
+    await session.send("input.performActions", {
+      context: session.sessionId,
+      actions: lines.map((line, i) => ({
+        type: "pointer",
+        id: `finger ${i}`,
+        parameters: { pointerType: "touch" },
+        actions: [
+          { type: "pointerMove", ...at(line, 0) },
+          { type: "pointerDown", button: 0 },
+          ...Array.from({ length: steps }, (_, k) => ({ type: "pointerMove", duration: 20, ...at(line, (k + 1) / steps) })),
+          { type: "pointerUp", button: 0 },
+        ],
+      })),
+    });
+    return;
+  }
+  const devtools = await page.context().newCDPSession(page);
+  const touch = (type: "touchStart" | "touchMove" | "touchEnd", share: number) =>
+    devtools.send("Input.dispatchTouchEvent", {
+      type,
+      touchPoints: type === "touchEnd" ? [] : lines.map((line, id) => ({ ...at(line, share), id })),
+    });
+  await touch("touchStart", 0);
+  for (let k = 1; k <= steps; ++k) await touch("touchMove", k / steps);
+  await touch("touchEnd", 1);
+  await devtools.detach();
+}
+
+/** A square PNG of one colour. */
+export function png(side: number, colour: [number, number, number]): Buffer {
+  const crc = (bytes: Buffer) => {
+    let c = ~0;
+    for (const byte of bytes) {
+      c ^= byte;
+      for (let k = 0; k < 8; ++k) c = c & 1 ? (c >>> 1) ^ 0xedb88320 : c >>> 1;
+    }
+    return ~c >>> 0;
+  };
+  const number = (value: number) => {
+    const bytes = Buffer.alloc(4);
+    bytes.writeUInt32BE(value);
+    return bytes;
+  };
+  const chunk = (kind: string, content: Buffer) => {
+    const body = Buffer.concat([Buffer.from(kind), content]);
+    return Buffer.concat([number(content.length), body, number(crc(body))]);
+  };
+  const row = Buffer.concat([Buffer.from([0]), ...Array.from({ length: side }, () => Buffer.from(colour))]);
+  return Buffer.concat([
+    Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]),
+    chunk("IHDR", Buffer.concat([number(side), number(side), Buffer.from([8, 2, 0, 0, 0])])),
+    chunk("IDAT", deflateSync(Buffer.concat(Array.from({ length: side }, () => row)))),
+    chunk("IEND", Buffer.alloc(0)),
+  ]);
 }

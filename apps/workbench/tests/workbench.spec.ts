@@ -2,11 +2,13 @@
 // those that have the tag @firefox.
 import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
+import type { AddressInfo } from "node:net";
 import { join } from "node:path";
 import type { Page } from "@playwright/test";
 import type * as api from "../src/api/types";
 import { structuresOf } from "../src/edit/structures";
-import { type Server, data, expect, mansard, picture, saved, test } from "./harness";
+import { type Line, type Server, data, expect, fingers, mansard, picture, png, saved, test } from "./harness";
 
 type Known = { window: { mansard: { state: typeof import("../src/state"); latency: number[]; drawn: number[] } } };
 
@@ -402,6 +404,63 @@ test("two runs are compared side by side, with the error map, the plots and the 
   await picture(page, "error");
 });
 
+test("each run has its own marks, edits are carried over, and merging across buildings asks first", async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "first");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+
+  await test.step("the part of another building is taken only after a question", async () => {
+    let asked = "";
+    page.once("dialog", (dialog) => {
+      asked = dialog.message();
+      void dialog.dismiss();
+    });
+    await page.getByRole("button", { name: "Merge with" }).click();
+    await expect.poll(() => asked).toMatch(/^Building \S+ loses (its only part|the part) .*Merge them\?$/);
+    expect((await buildingOf(page, house.id)).edited).toBe(false);
+  });
+
+  await page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Flat" }).click();
+  await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(true);
+  const { plan } = (await buildingOf(page, house.id)).parts[0]!;
+  await reconstruct(page, "second");
+
+  await test.step("a new run offers the edits of the one before", async () => {
+    expect((await buildingOf(page, house.id)).edited).toBe(false);
+    await page.getByRole("button", { name: "Carry over from first" }).click();
+    await expect(page.getByText("edits of 1 building carried over")).toBeVisible();
+    await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(true);
+    expect((await buildingOf(page, house.id)).parts[0]!.plan).toEqual(plan);
+    await expect(page.getByRole("button", { name: /^Carry over from/ })).toHaveCount(0);
+  });
+
+  await test.step("why a model is simpler is said in every panel, and marks of a run are not drawn over the other one", async () => {
+    // The sample has no building with a simpler model than asked for.
+    await page.evaluate((id) => {
+      const { state } = (window as unknown as Known["window"]).mansard;
+      const run = state.run.value!;
+      const reason: api.Diagnostic = { severity: "warning", code: "test", message: "for the test", subject: id };
+      const building = { ...run.buildings.get(id)!, reasons: [reason] };
+      state.run.value = { ...run, buildings: new Map(run.buildings).set(id, building) };
+    }, house.id);
+    await pick(page, house.id);
+    for (const tab of ["Edit", "Run", "Attributes", "Layers", "Buildings"]) {
+      await page.getByRole("tab", { name: tab }).click();
+      await expect(page.getByRole("region", { name: "Diagnostics of the selected building" })).toContainText(/for the test/i);
+    }
+    await expect(page.getByRole("row", { name: house.id }).getByLabel(/for the test/i)).toBeVisible();
+    const mark: [number, number, number][] = [[217, 128, 13], [217, 127, 13]];
+    await idle(page);
+    expect(await pixels(page, mark)).toBeGreaterThan(20);
+    await page.getByLabel("Compare with").selectOption({ label: "first (run-1)" });
+    await expect.poll(() => state(page, (s) => s.other.value?.buildings.size ?? 0)).toBeGreaterThan(1);
+    await idle(page);
+    expect(await pixels(page, mark, [0, 0.5])).toBeGreaterThan(20);
+    expect(await pixels(page, mark, [0.5, 1])).toBe(0);
+  });
+});
+
 test("a click in the 3D view selects the building there", async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "view");
@@ -632,9 +691,11 @@ const topOf = (page: Page, id: string) =>
     return view.project(building)!;
   }, id);
 
-/** How many pixels of the view have one of these colours. */
-async function pixels(page: Page, colours: [number, number, number][]) {
-  const png = (await canvas(page).screenshot()).toString("base64");
+/** How many pixels of the view have one of these colours; `share`: only between these shares of its width. */
+async function pixels(page: Page, colours: [number, number, number][], share?: [number, number]) {
+  const { x, y, width, height } = (await canvas(page).boundingBox())!;
+  const clip = share && { x: x + share[0] * width, y, width: (share[1] - share[0]) * width, height };
+  const png = (await (clip ? page.screenshot({ clip }) : canvas(page).screenshot())).toString("base64");
   return page.evaluate(
     async ([bytes, wanted]) => {
       const image = await createImageBitmap(new Blob([Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0))]));
@@ -1320,14 +1381,8 @@ test.describe("on a touch screen", () => {
     await pick(page, house.id);
     await pickEdge(page, pitched(house.parts[0]!.plan)[0]!);
     await idle(page);
-    const devtools = await page.context().newCDPSession(page);
-    /** Fingers on lines from the first to the second places. */
-    const drag = async (...fingers: [from: [number, number], to: [number, number]][]) => {
-      const at = (share: number) =>
-        fingers.map(([a, b], id) => ({ x: a[0] + (b[0] - a[0]) * share, y: a[1] + (b[1] - a[1]) * share, id }));
-      await devtools.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: at(0) });
-      for (let i = 1; i <= 8; ++i) await devtools.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: at(i / 8) });
-      await devtools.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+    const drag = async (...lines: Line[]) => {
+      await fingers(page, lines);
       await idle(page);
     };
     const seen = async () => ({ ...(await state(page, (s) => s.compass.value))!, top: await topOf(page, house.id) });
@@ -1394,5 +1449,53 @@ test("a basemap is shown under the models, if the server was started with one", 
   await expect.poll(shown).toBe(true);
   await idle(page);
   expect(await pixels(page, [[20, 150, 60], [200, 230, 120]])).toBeGreaterThan(20_000);
+  await expect(page.locator(".attribution")).toHaveCount(0);
+  await expect(page.getByRole("img", { name: "North arrow" })).toBeVisible();
+  await expect(page.getByRole("img", { name: /^Scale bar: \d+ m/ })).toBeVisible();
   await picture(page, "basemap");
+
+  // Tiles of another server, which hears nothing before the layer is shown.
+  const asked: string[] = [];
+  const tiles = createServer((request, response) => {
+    asked.push(request.url!);
+    const [z, x, y] = request.url!.split(/[/.]/).slice(1).map(Number) as [number, number, number];
+    if (z > 18) return void response.writeHead(404).end();
+    response.writeHead(200, { "Content-Type": "image/png" }).end(png(256, (x + y) % 2 ? [225, 190, 90] : [60, 110, 200]));
+  });
+  await new Promise<void>((resolve) => tiles.listen(0, "127.0.0.1", resolve));
+  const address = `http://127.0.0.1:${(tiles.address() as AddressInfo).port}/{z}/{x}/{y}.png`;
+  try {
+    await server.stop();
+    await server.start("--basemap", address, "--basemap-attribution", "© Somebody’s map");
+    await page.goto("about:blank");
+    await page.goto(server.link);
+    await open(page, "street.city.json");
+    await page.getByRole("tab", { name: "Layers" }).click();
+    await expect(layer).not.toBeChecked();
+    expect(asked).toEqual([]);
+    await layer.click();
+    await expect.poll(shown).toBe(true);
+    await expect(page.locator(".attribution")).toHaveText("© Somebody’s map");
+    await idle(page);
+    expect(await pixels(page, [[225, 190, 90], [60, 110, 200]])).toBeGreaterThan(20_000);
+    expect(asked.length).toBeGreaterThan(1);
+    await picture(page, "basemap-tiles");
+    await page.keyboard.press("p");
+    const file = await saved(page, folder, () => page.getByRole("button", { name: "Save PNG" }).click());
+    expect(readFileSync(file).length).toBeGreaterThan(10_000);
+  } finally {
+    tiles.closeAllConnections();
+    await new Promise((resolve) => tiles.close(resolve));
+  }
+
+  // A server of tiles that does not answer.
+  await server.stop();
+  await server.start("--basemap", address);
+  await page.goto("about:blank");
+  await page.goto(server.link);
+  await open(page, "street.city.json");
+  await page.getByRole("tab", { name: "Layers" }).click();
+  await layer.click();
+  await expect(page.getByText(/The server of the tiles does not send/i).first()).toBeVisible();
+  await expect(layer).not.toBeChecked();
 });

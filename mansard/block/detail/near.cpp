@@ -144,28 +144,34 @@ auto candidates(const geometry::Mesh& mesh, const std::vector<Box2>& regions)
       for (std::size_t c = c0; c <= c1; ++c) cells[r * columns + c].push_back(static_cast<std::uint32_t>(i));
   }
 
-  // In pieces of the mesh, each with its own lists, put together in the order of the pieces.
-  constexpr std::size_t piece = 1 << 14;
+  // In pieces of the mesh, each with its own lists, put together in the order of the pieces; some at a time, since all
+  // lists of a city would take as much memory as its mesh.
+  constexpr std::size_t piece = 1 << 14, at_a_time = 32;
   const std::size_t pieces = (mesh.triangles.size() + piece - 1) / piece;
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(pieces);
-  base::parallel_for(pieces, [&](std::size_t k) {
-    std::vector<std::uint32_t> near;
-    for (std::size_t t = k * piece; t < std::min(mesh.triangles.size(), (k + 1) * piece); ++t) {
-      const Box2 box = Box2::of(plan_of(mesh, mesh.triangles[t]));
-      if (!box.overlaps(all)) continue;
-      near.clear();
-      const auto [c0, c1, r0, r1] = range(box);
-      for (std::size_t r = r0; r <= r1; ++r)
-        for (std::size_t c = c0; c <= c1; ++c)
-          for (const std::uint32_t i : cells[r * columns + c])
-            if (regions[i].overlaps(box)) near.push_back(i);
-      std::ranges::sort(near);
-      near.erase(std::unique(near.begin(), near.end()), near.end());
-      for (const std::uint32_t i : near) found[k].emplace_back(i, static_cast<std::uint32_t>(t));
-    }
-  });
-  for (const auto& some : found)
-    for (const auto& [region, triangle] : some) out[region].push_back(triangle);
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(std::min(pieces, at_a_time));
+  for (std::size_t first = 0; first < pieces; first += at_a_time) {
+    base::parallel_for(std::min(at_a_time, pieces - first), [&](std::size_t k) {
+      std::vector<std::uint32_t> near;
+      found[k].clear();
+      const std::size_t begin = (first + k) * piece;
+      for (std::size_t t = begin; t < std::min(mesh.triangles.size(), begin + piece); ++t) {
+        const Box2 box = Box2::of(plan_of(mesh, mesh.triangles[t]));
+        if (!box.overlaps(all)) continue;
+        near.clear();
+        const auto [c0, c1, r0, r1] = range(box);
+        for (std::size_t r = r0; r <= r1; ++r)
+          for (std::size_t c = c0; c <= c1; ++c)
+            for (const std::uint32_t i : cells[r * columns + c])
+              if (regions[i].overlaps(box)) near.push_back(i);
+        std::ranges::sort(near);
+        near.erase(std::unique(near.begin(), near.end()), near.end());
+        for (const std::uint32_t i : near) found[k].emplace_back(i, static_cast<std::uint32_t>(t));
+      }
+    });
+    for (std::size_t k = 0; k < std::min(at_a_time, pieces - first); ++k)
+      for (const auto& [region, triangle] : found[k]) out[region].push_back(triangle);
+  }
+  for (auto& triangles : out) triangles.shrink_to_fit();
   return out;
 }
 

@@ -2,11 +2,7 @@
 
 #include <cpl_string.h>
 #include <gdal_priv.h>
-#include <gdal_utils.h>
 
-#include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -16,7 +12,7 @@
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
-#include "mansard/formats/image/memory_file.hpp"
+#include "mansard/formats/raster/warped_picture.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -25,34 +21,6 @@ namespace fs = std::filesystem;
 
 auto bad_picture(const std::string& what, const fs::path& path) -> base::Diagnostic {
   return base::error("ingest-raster", what, path.string());
-}
-
-auto arguments(const std::vector<std::string>& words) -> CPLStringList {
-  CPLStringList list;
-  for (const auto& word : words) list.AddString(word.c_str());
-  return list;
-}
-
-/// As gdal_translate and gdalwarp do it; null where they fail.
-auto translate(GDALDataset& from, const std::string& to, const std::vector<std::string>& words)
-    -> GDALDatasetUniquePtr {
-  GDALTranslateOptions* options = GDALTranslateOptionsNew(arguments(words).List(), nullptr);
-  if (options == nullptr) return nullptr;
-  int failed = 0;
-  GDALDatasetUniquePtr out(
-      GDALDataset::FromHandle(GDALTranslate(to.c_str(), GDALDataset::ToHandle(&from), options, &failed)));
-  GDALTranslateOptionsFree(options);
-  return out;
-}
-
-auto warp(GDALDataset& from, const std::vector<std::string>& words) -> GDALDatasetUniquePtr {
-  GDALWarpAppOptions* options = GDALWarpAppOptionsNew(arguments(words).List(), nullptr);
-  if (options == nullptr) return nullptr;
-  GDALDatasetH source = GDALDataset::ToHandle(&from);
-  int failed = 0;
-  GDALDatasetUniquePtr out(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &source, options, &failed)));
-  GDALWarpAppOptionsFree(options);
-  return out;
 }
 
 /// What makes 8-bit grey or RGB of its bands; empty where they are.
@@ -100,12 +68,12 @@ auto read_ground_picture(const fs::path& path, const std::string& crs, int most)
   auto* now = file.get();
   if (auto words = to_colours(*now); !words.empty()) {
     words.insert(words.end(), {"-of", "VRT"});
-    coloured = translate(*now, "", words);
+    coloured = translated(*now, "", words);
     now = coloured.get();
   }
   if (now != nullptr && placed) {
     const auto flat = crs::wkt_of(crs::flat(wanted->system).system);
-    moved = warp(*now, {"-of", "VRT", "-dstalpha", "-r", "bilinear", "-t_srs", flat});
+    moved = warped(*now, {"-of", "VRT", "-dstalpha", "-r", "bilinear", "-t_srs", flat});
     now = moved.get();
   }
   if (now == nullptr || now->GetGeoTransform(g) != CE_None)
@@ -113,24 +81,9 @@ auto read_ground_picture(const fs::path& path, const std::string& crs, int most)
                            (messages.failure().empty() ? "" : " (" + messages.failure() + ")"),
                        path);
 
-  const int columns = now->GetRasterXSize(), rows = now->GetRasterYSize();
-  const double scale = std::min(1.0, static_cast<double>(most) / std::max(columns, rows));
-  const auto scaled = [&](int count) { return std::to_string(std::max(1L, std::lround(count * scale))); };
-  static std::atomic<std::uint64_t> count{0};
-  const MemoryFile in_memory("/vsimem/mansard_ground_" + std::to_string(count.fetch_add(1)) + ".png");
-  GroundPicture out;
-  {
-    const WithoutSidecars none;
-    auto png =
-        translate(*now, in_memory.name(), {"-of", "PNG", "-r", "average", "-outsize", scaled(columns), scaled(rows)});
-    const bool written = png != nullptr;
-    png.reset();  // closed, it is in the file
-    if (written) out.png = in_memory.bytes();
-  }
+  auto out = ground_picture_of(*now, most);
   if (out.png.empty())
     return bad_picture("it cannot be read" + (messages.failure().empty() ? "" : " (" + messages.failure() + ")"), path);
-  out.place.add({g[0], g[3]});
-  out.place.add({g[0] + columns * g[1], g[3] + rows * g[5]});
   return out;
 }
 

@@ -215,6 +215,7 @@ export interface Project {
   runs: RunSummary[];
   scene: boolean; // GET /api/scene answers: the inputs have been read, or their scene was kept from the last time
   sample: boolean; // a sample is available: POST /api/project/sample
+  basemap_attribution: string; // to be shown with the basemap; empty if none was given
 }
 
 export interface Option {

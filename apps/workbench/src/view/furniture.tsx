@@ -1,5 +1,6 @@
-// North arrow and scale bar.
+// North arrow and scale bar, and whose the basemap is.
 import * as state from "../state";
+import { choices } from "./layers";
 
 /** The length of the bar: 1, 2 or 5 times a power of ten, at most `most` pixels wide. */
 export function barOf(metresPerPixel: number, most: number): { metres: number; pixels: number } {
@@ -28,4 +29,15 @@ export function Furniture() {
       </div>
     </div>
   );
+}
+
+/** What the licence of the basemap asks for, while it is shown. */
+export function attribution(): string {
+  const there = choices.value.basemap.shown && state.basemaps.value.has(state.run.value?.id ?? "");
+  return there ? (state.project.value?.basemap_attribution ?? "") : "";
+}
+
+export function Attribution() {
+  const text = attribution();
+  return text ? <p class="attribution">{text}</p> : null;
 }

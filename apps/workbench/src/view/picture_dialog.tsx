@@ -5,6 +5,7 @@ import * as actions from "../actions";
 import { Icon } from "../panels/icons";
 import * as state from "../state";
 import { viewer } from "./current";
+import { attribution } from "./furniture";
 import { address } from "./link";
 
 const width = signal(1920);
@@ -25,7 +26,7 @@ export function PictureDialog() {
   const most = viewer.value?.largestPicture ?? 4096;
   const valid = (n: number) => Number.isInteger(n) && n >= 16 && n <= most;
   const save = async () => {
-    const bytes = await viewer.value?.picture(width.value, height.value);
+    const bytes = await viewer.value?.picture(width.value, height.value, attribution());
     if (!bytes) return actions.showMessage({ severity: "error", code: "picture", message: "the browser could not make the picture; choose a smaller size", subject: "" });
     const name = state.selection.value?.building ?? state.run.value?.id ?? "view";
     actions.offer(bytes, `${name.replace(/[^\w.-]+/g, "_")}.png`);

@@ -13,7 +13,7 @@ import { reasonsOf } from "../panels/reasons";
 import { nameOf } from "../panels/words";
 import { viewer } from "./current";
 import type { RawClimbs } from "./highlight";
-import { Furniture } from "./furniture";
+import { Attribution, Furniture } from "./furniture";
 import { choices, choose, divided, errorLimit, lod, section } from "./layers";
 import { LayersPopover } from "./layers_panel";
 import { Legend } from "./legend";
@@ -321,6 +321,7 @@ export function View() {
       <div class="view-corner">
         <Legend />
         <Furniture />
+        <Attribution />
       </div>
       <Sides />
       <Divider />

@@ -20,7 +20,7 @@ import { Others } from "./others";
 import { type Hit, type Ray, covers, pick, pickFootprint } from "./pick";
 import { Terrain } from "./terrain";
 import { Tiles } from "./tiles";
-import { Still, changing, isSoftware } from "./still";
+import { type Rectangle, Smooth, Still, both, changing, isSoftware, seenAt } from "./still";
 import { type SectionPlane, cutLines, filling, planeOf, reach } from "./section";
 import { SegmentationLayers } from "./segmentation";
 import type { Colour } from "./styling";
@@ -90,7 +90,10 @@ export class Viewer {
   private large: Large | null = null;
   private contents: Box | null = null; // the box of what is shown, until it changes
   private highlight: Highlight;
-  private readonly still: Still | null; // only where images are slow
+  // Only where images are slow.
+  private readonly still: Still | null;
+  private readonly smooth: Smooth | null;
+  private dragged: Rectangle | null = null; // what the image before differs in from what is still; null: it may be everywhere
   private tiles: Tiles | null = null;
   private sides: [Side, Side | null];
   private scene: api.Scene | null = null;
@@ -116,11 +119,18 @@ export class Viewer {
     choices: Choices,
   ) {
     this.choices = choices;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    const slow = isSoftware();
+    this.renderer = new THREE.WebGLRenderer({
+      canvas,
+      antialias: !slow,
+      preserveDrawingBuffer: slow, // images of a drag replace a part of the one before
+      powerPreference: "high-performance",
+    });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // see materials.ts: nothing is converted
     this.renderer.setClearColor(background.light);
     this.renderer.autoClear = false;
-    this.still = isSoftware(this.renderer.getContext()) ? new Still() : null;
+    this.still = slow ? new Still() : null;
+    this.smooth = slow ? new Smooth() : null;
     this.eye.layers.enable(changing);
     this.highlight = new Highlight(this.centre);
     this.sides = [new Side(this.output(0)), null];
@@ -157,6 +167,7 @@ export class Viewer {
     this.tiles?.dispose();
     this.far.dispose();
     this.still?.dispose();
+    this.smooth?.dispose();
     this.basemap.clear();
     for (const side of this.sides) side?.dispose();
     this.renderer.dispose();
@@ -596,8 +607,8 @@ export class Viewer {
     return { ...this.goal, target: this.goal.target.map((t, i) => t + this.centre[i]!) as Vector };
   }
 
-  /** The view as an image of that size, without the marks of the pointer. */
-  async picture(width: number, height: number): Promise<Blob | null> {
+  /** The view as an image of that size, without the marks of the pointer; `note` is written into its lower right corner. */
+  async picture(width: number, height: number, note = ""): Promise<Blob | null> {
     const [w, h, ratio] = [this.width, this.height, this.renderer.getPixelRatio()];
     const hovering = this.highlight;
     hovering.hover(undefined);
@@ -607,7 +618,8 @@ export class Viewer {
       [this.width, this.height] = [width, height];
       this.draw();
       // The canvas is read in the same task: its contents are not kept after that.
-      return await new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
+      const image = note ? withNote(this.canvas, note) : this.canvas;
+      return await new Promise((resolve) => image.toBlob(resolve, "image/png"));
     } finally {
       [this.width, this.height] = [w, h];
       this.renderer.setPixelRatio(ratio);
@@ -990,7 +1002,7 @@ export class Viewer {
       if (this.framed)
         this.listener.moved({ ...this.pose, target: this.pose.target.map((t, i) => t + this.centre[i]!) as Vector });
     }
-    this.draw();
+    this.draw(settled);
     this.moving = !settled; // the next image follows at once
     if (!settled) this.request(false);
   }
@@ -1013,9 +1025,12 @@ export class Viewer {
     eye.updateMatrixWorld();
   }
 
-  private draw() {
+  /** `stays`: no other image follows at once. */
+  private draw(stays = true) {
     this.aim();
     if (this.drawDrag()) return;
+    this.dragged = null;
+    if (stays) this.smooth?.begin(this.renderer);
     this.stream();
     this.far.seenFrom(this.eye.position);
     this.highlight.detailed = this.pose.size < 150;
@@ -1059,6 +1074,7 @@ export class Viewer {
         else this.pane(i * this.paneWidth, i * this.paneWidth, this.paneWidth);
       });
     }
+    if (stays) this.smooth?.end(this.renderer, this.width, this.height);
     this.listener.drawn(this.pose.azimuth, this.pose.size / this.height);
   }
 
@@ -1073,28 +1089,58 @@ export class Viewer {
     const { pose, eye, renderer } = this;
     renderer.setScissorTest(false);
     renderer.setViewport(0, 0, this.width, this.height);
-    renderer.clear();
-    this.still.draw(renderer, JSON.stringify([pose, [...drafts.keys()]]), () => {
+    const fresh = this.still.draw(renderer, JSON.stringify([pose, [...drafts.keys()]]), () => {
       this.stream();
       this.far.seenFrom(eye.position);
       output.seenFrom(pose.size, this.choices.outlines.opacity);
       eye.layers.set(0);
       renderer.render(this.world, eye);
     });
+    const now = seenAt(this.changingBoxes(), eye, this.width, this.height);
+    const { left, bottom, right, top } =
+      fresh || !this.dragged ? { left: 0, bottom: 0, right: this.width, top: this.height } : both(this.dragged, now);
+    this.dragged = now;
+    renderer.setScissor(left, bottom, right - left, top - bottom);
+    renderer.setScissorTest(true);
+    this.still.copy(renderer);
     eye.layers.set(changing);
     renderer.render(this.world, eye);
     eye.layers.enableAll();
+    renderer.setScissorTest(false);
     this.listener.drawn(pose.azimuth, pose.size / this.height);
     return true;
+  }
+
+  /** The boxes of what a drag changes, in the world of three.js. */
+  private *changingBoxes(): Iterable<THREE.Box3> {
+    for (const draft of this.sides[0].drafts.values()) {
+      const { low, high } = this.centred(boxOf(draft));
+      yield new THREE.Box3(new THREE.Vector3(...low), new THREE.Vector3(...high));
+    }
+    for (const object of [...this.highlight.group.children, this.cap.object, this.capLines.object]) {
+      if (!object.visible || !(object instanceof THREE.Mesh)) continue;
+      const geometry = object.geometry as THREE.BufferGeometry;
+      geometry.computeBoundingBox();
+      if (geometry.boundingBox) yield geometry.boundingBox;
+    }
   }
 
   /** Draws one pane: its left edge, and the part of it that is drawn. */
   private pane(left: number, from: number, wide: number) {
     if (wide <= 0) return;
-    this.renderer.setViewport(left, 0, this.paneWidth, this.height);
-    this.renderer.setScissor(from, 0, wide, this.height);
-    this.renderer.clear();
-    this.renderer.render(this.world, this.eye);
+    const { renderer, paneWidth, height } = this;
+    renderer.setViewport(left, 0, paneWidth, height);
+    renderer.setScissor(from, 0, wide, height);
+    const target = renderer.getRenderTarget();
+    if (target) {
+      const ratio = renderer.getPixelRatio();
+      target.viewport.set(left, 0, paneWidth, height).multiplyScalar(ratio).round();
+      target.scissor.set(from, 0, wide, height).multiplyScalar(ratio).round();
+      target.scissorTest = true;
+      renderer.setRenderTarget(target); // takes them over
+    }
+    renderer.clear();
+    renderer.render(this.world, this.eye);
   }
 
   private stream() {
@@ -1115,6 +1161,25 @@ export class Viewer {
       },
     });
   }
+}
+
+/** A copy of the image with a text in its lower right corner. */
+function withNote(image: HTMLCanvasElement, note: string): HTMLCanvasElement {
+  const copy = document.createElement("canvas");
+  copy.width = image.width;
+  copy.height = image.height;
+  const draw = copy.getContext("2d")!;
+  draw.drawImage(image, 0, 0);
+  const size = Math.max(11, Math.round(image.height / 80)); // pixels
+  draw.font = `${size}px sans-serif`;
+  draw.textAlign = "right";
+  draw.textBaseline = "bottom";
+  draw.fillStyle = "rgb(255 255 255 / 75%)";
+  const wide = Math.min(image.width, draw.measureText(note).width + size);
+  draw.fillRect(image.width - wide, image.height - 1.5 * size, wide, 1.5 * size);
+  draw.fillStyle = "#222";
+  draw.fillText(note, image.width - size / 2, image.height - size / 4, image.width - size);
+  return copy;
 }
 
 const empty: ReadonlyMap<string, api.Building> = new Map();
