@@ -127,7 +127,7 @@ auto bridged(const Polygon& polygon) -> std::optional<std::vector<Polygon>> {
       }
   auto united = geometry::unite(pieces);
   if (!united || !std::ranges::all_of(*united, is_good)) return std::nullopt;
-  return std::move(*united);
+  return *std::move(united);
 }
 
 /// Shell without holes, each read by the even-odd rule first.

@@ -69,7 +69,8 @@ class RowSums {
 
   /// Mean height `near` to `far` metres from a line before the column, going `way`; NaN where unseen.
   [[nodiscard]] auto beside(int row, int column, int way, double near, double far) const -> double {
-    const int a = static_cast<int>(near / raster_.spacing + 0.5), b = static_cast<int>(far / raster_.spacing + 0.5);
+    const int a = static_cast<int>(std::lround(near / raster_.spacing)),
+              b = static_cast<int>(std::lround(far / raster_.spacing));
     const int first = std::clamp(way > 0 ? column + a : column - b, 0, raster_.columns);
     const int last = std::clamp(way > 0 ? column + b : column - a, 0, raster_.columns);
     const std::size_t base = stride_ * static_cast<std::size_t>(row);

@@ -279,7 +279,7 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
     if (const auto plain = Judge(all, options_, raising_, run_)(*plan)) try_beside_dormers_of(*plain, false);
   try_beside_dormers_of(piece.roof, true);
   constexpr int rounds = 3;  // a better roof shows more of them
-  for (int round = 0; round < rounds && std::exchange(better, false); ++round) {
+  for (int round = 0; round < rounds && best && std::exchange(better, false); ++round) {
     const Judged roof = best->roof;
     if (const auto plan = straightened(roof, best->without))
       if (const auto plain = Judge(best->without, options_, raising_, run_)(*plan))
