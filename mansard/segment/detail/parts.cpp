@@ -19,7 +19,7 @@ using LabelOfFace = std::vector<std::optional<std::uint32_t>>;
 auto faces_by_label(const LabelOfFace& label_of_face) -> std::map<std::uint32_t, std::vector<std::uint32_t>> {
   std::map<std::uint32_t, std::vector<std::uint32_t>> faces;
   for (std::uint32_t f = 0; f < label_of_face.size(); ++f)
-    if (label_of_face[f]) faces[*label_of_face[f]].push_back(f);
+    if (const auto& label = label_of_face[f]) faces[*label].push_back(f);
   return faces;
 }
 
@@ -45,14 +45,17 @@ auto best_neighbour(const fracture::Arrangement& arrangement, const std::vector<
                     const LabelOfFace& label_of_face,
                     const std::map<std::uint32_t, std::optional<std::size_t>>& feature_of_label)
     -> std::optional<std::uint32_t> {
-  const std::uint32_t label = *label_of_face[faces.front()];
+  const auto& own = label_of_face[faces.front()];
+  if (!own) return std::nullopt;
+  const std::uint32_t label = *own;
   std::map<std::uint32_t, double> common;
   for (const std::uint32_t f : faces)
     for (const std::uint32_t h : half_edges_around(arrangement, f)) {
       const auto other = face_across(arrangement, h);
-      if (other && label_of_face[*other] && *label_of_face[*other] != label &&
-          feature_of_label.at(*label_of_face[*other]) == feature_of_label.at(label))
-        common[*label_of_face[*other]] += length_of(arrangement, h);
+      if (!other) continue;
+      const auto& beyond = label_of_face[*other];
+      if (beyond && *beyond != label && feature_of_label.at(*beyond) == feature_of_label.at(label))
+        common[*beyond] += length_of(arrangement, h);
     }
   std::optional<std::uint32_t> best;
   for (const auto& [l, length] : common)
@@ -221,8 +224,8 @@ auto origin_of(const fracture::Arrangement& arrangement, const std::vector<std::
     for (const fracture::Origin& cause : edge.origins)
       if (cause.kind == fracture::Kind::hard && cause.source < gis_source && !cause.along) sources.insert(cause.source);
     for (const std::uint32_t s : sources) under[s] += length;
-    if (const auto other = arrangement.half_edges[edge.twin].face; other && part_of_face[*other])
-      beside[*part_of_face[*other]] += length;
+    if (const auto other = arrangement.half_edges[edge.twin].face)
+      if (const auto& part = part_of_face[*other]) beside[*part] += length;
   }
   EdgeOrigin origin;
   for (const auto& [source, length] : under)
