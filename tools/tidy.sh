@@ -14,7 +14,7 @@ sources=("$@")
 # The check of optional access does not come to an end for a few sources, or crashes (clang-tidy 16): they are checked
 # without it.
 tidy() {
-  local said code=0 run=(clang-tidy-16 -p build/clang --quiet --warnings-as-errors='*')
+  local said code=0 run=(clang-tidy-16 -p build/clang --quiet --warnings-as-errors='*' "--header-filter=^$PWD/(mansard|lab)/")
   said=$(timeout 300 "${run[@]}" "$1" 2> /dev/null) || code=$?
   if [[ $code -ge 124 ]]; then
     code=0

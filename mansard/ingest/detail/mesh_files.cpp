@@ -309,8 +309,11 @@ auto MeshReading::own_crs() const -> std::string {
 
 auto MeshReading::own_crs_or_zone() const -> std::string {
   auto own = own_crs();
-  for (auto source = sources_.begin(); own.empty() && source != sources_.end(); ++source)
-    if (const auto place = place_of(*source); place && source->crs) own = crs::working_crs_of(*source->crs, *place);
+  for (const auto& source : sources_) {
+    if (!own.empty()) break;
+    const auto place = place_of(source);
+    if (const auto& crs = source.crs; place && crs) own = crs::working_crs_of(*crs, *place);
+  }
   return own;
 }
 

@@ -140,7 +140,7 @@ auto rebuilt(const Polygon& polygon) -> base::Result<std::vector<Polygon>> {
     if (!valid) return valid;
     holes.insert(holes.end(), valid->begin(), valid->end());
   }
-  const auto united = geometry::unite(holes);
+  auto united = geometry::unite(holes);
   if (!united) return united;
   for (const auto& hole : *united) {
     std::vector<Polygon> left;

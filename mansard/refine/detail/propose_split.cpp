@@ -94,7 +94,7 @@ struct Crossing {
 auto crossing_at(const RowSums& sums, const std::vector<int>& rows, int column, const Options& options) -> Crossing {
   const auto& o = options.splits;
   const double least_step = o.step_share * options.cuts.min_step;
-  const double near = options.samples.melt, far = options.outlines.reach;
+  const double near = options.samples.melt, far = reach_beside(options);
   double known = 0, steps = 0, valleys = 0;
   for (const int row : rows) {
     const double left = sums.beside(row, column, -1, near, far), right = sums.beside(row, column, 1, near, far);

@@ -189,7 +189,7 @@ auto Work::misfit_near(const Piece& piece, const geometry::Polygon& other) const
   double sum = 0;
   for (const auto cell : site.cells) {
     const double d = std::abs(piece.roof.view.z[cell] - site.measured.z[cell]);
-    if (!(d > options_.joins.recut_step)) continue;
+    if (!(d > options_.cuts.min_step)) continue;
     const auto at = site.measured.centre(cell);
     if (geometry::boundary_distance(other, at) < options_.joins.recut_reach) sum += d * std::min(d, options_.robust);
   }
