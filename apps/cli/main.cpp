@@ -21,6 +21,7 @@
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/pipeline/pipeline.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -48,6 +49,14 @@ auto printed(int code) -> int {
       "standard output"));
 }
 
+/// "--sweep-line-gap" is "sweep.line_gap".
+auto key_of(std::string name) -> std::string {
+  name.erase(0, std::min(name.size(), name.find_first_not_of('-')));
+  std::ranges::replace(name, '-', '_');
+  if (const auto end = name.find('_'); end != std::string::npos) name[end] = '.';
+  return name;
+}
+
 /// Options that are of another verb, and misspelt ones, with the nearest known one.
 auto unknown_option(const Form& verb, const std::string& name, const std::vector<Form>& forms) -> base::Diagnostic {
   std::vector<std::string> others, known;
@@ -67,6 +76,8 @@ auto unknown_option(const Form& verb, const std::string& name, const std::vector
                            (others.size() > 1 ? "; verbs that do: " : "; the verb that does: ") + listed(others),
                        name);
   }
+  if (auto why = pipeline::why_removed(key_of(name)); !why.empty())
+    return base::error("option-unknown", std::move(why), name);
   for (const auto& term : verb.options)
     for (const auto& spelling : term.names)
       if (spelling.starts_with("--")) known.push_back(spelling);

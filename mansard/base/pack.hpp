@@ -199,7 +199,7 @@ class Unpacker {
       take(index);
       if (!held(value, index, std::make_index_sequence<std::variant_size_v<T>>{})) good_ = false;
     } else {
-      detail::with_members(value, [this](auto&... all) { (take(all), ...); });
+      detail::with_members(value, [this](auto&... all) { (this->take(all), ...); });
     }
     return good_;
   }

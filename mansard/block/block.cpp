@@ -335,9 +335,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("terrain_share", o.terrain_share, "", {0, 1},
               "Minimum share of an outline on which a terrain model is known for it to be used.")
       .advanced("chosen by hand; not measured");
-  list.number("gap_area", o.gap_area, "m²", {0, 100},
-              "Gaps between the footprints of a block with less total area than this are not closed.")
-      .advanced("chosen by hand; not measured");
   return list;
 }
 

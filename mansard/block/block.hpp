@@ -55,7 +55,8 @@ struct Options {
   double ground_reach = 50.0;           ///< m; how far from a block, at most, the mesh says something of its ground
   double terrain_step = 1.0;            ///< m; between the places of an outline where the terrain is asked
   double terrain_share = 0.9;           ///< of the outline: what lies beyond the terrain's edge may be another slope
-  double gap_area = 0.01;               ///< m²; gaps between touching footprints that are smaller stay open
+  /// m²; gaps between touching footprints that are smaller stay open; such gaps are rounding's
+  static constexpr double gap_area = 0.01;
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -33,15 +33,15 @@ struct Options {
 
   /// The lines of a canonical footprint.
   struct Lines {
-    double share_move = 1e-3;        ///< m
-    double share_turn = 0.02;        ///< rad
-    double min_stretch = 0x1.0p-10;  ///< m
+    double share_move = 1e-3;                         ///< m
+    double share_turn = 0.02;                         ///< rad
+    static constexpr double min_stretch = 0x1.0p-10;  ///< m; 64 steps of the kernel's grid, a millimetre
   } lines;
 
   /// Overhanging eaves.
   struct Eaves {
-    double mitre = 4;
-    double min_soffit = 0.01;  ///< m
+    static constexpr double mitre = 4;          ///< a corner of 29°, the usual limit of mitres
+    static constexpr double min_soffit = 0.01;  ///< m; so that the soffit is above the base
   } eaves;
 
   /// The second rung of the ladder.

@@ -13,15 +13,6 @@ void add_advanced(base::OptionList& list, Options& o) {
       .number("lines_share_turn", o.lines.share_turn, "rad", {0, 0.7},
               "An edge takes the direction of a longer one where that turns it by at most this.")
       .advanced(by_hand)
-      .number("lines_min_stretch", o.lines.min_stretch, "m", {0, 1},
-              "A stretch of a facade with a profile of its own that is shorter than this goes to its neighbours.")
-      .advanced("64 steps of the kernel's grid, a millimetre; docs/canonical-footprint.md")
-      .number("eaves_mitre", o.eaves.mitre, "", {1, 1000},
-              "Eaves overhang where no corner moves farther than this multiple of the overhang.")
-      .advanced("a corner of 29°, as the usual mitre limit of strokes (4); not measured")
-      .number("eaves_min_soffit", o.eaves.min_soffit, "m", {0.001, 100},
-              "Eaves overhang where their soffit is at least this high above the base.")
-      .advanced(by_hand)
       .number("simpler_detail", o.simpler.detail, "m", {0.001, 10},
               "A building that cannot be extruded in full is extruded without details under this size.")
       .advanced("docs/extrude.md, the ladder; chosen by hand, not measured")

@@ -145,12 +145,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("margin", o.margin, "m", {0, 1000},
               "Distance from the lines to the rectangle that bounds the fractured ground.")
       .source("reference implementation chordatlas: 10 m");
-  list.integer("settle_steps", o.settle_steps, "", {1, 1e6},
-               "Number of steps after which a line that does not settle is tried otherwise.")
-      .advanced("lines that settle were seen to take 155 steps at most");
-  list.integer("settle_steps_per_crossing", o.settle_steps_per_crossing, "", {0, 1e6},
-               "Additional number of steps for every edge that the line crosses.")
-      .advanced("chosen by hand; not measured");
   return list;
 }
 

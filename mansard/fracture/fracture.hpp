@@ -65,11 +65,13 @@ struct Arrangement {
 };
 
 struct Options {
-  double continuation = 2.0;       ///< m; a line goes on for this far beyond both ends, then to the next edge
-  double snap = 0.05;              ///< m; vertices and lines nearer than this become one
-  double margin = 10.0;            ///< m; from the cuts to the bounding rectangle
-  std::size_t settle_steps = 300;  ///< steps a cut may take to settle …
-  std::size_t settle_steps_per_crossing = 4;  ///< … and so many more for each edge that it crosses
+  double continuation = 2.0;  ///< m; a line goes on for this far beyond both ends, then to the next edge
+  double snap = 0.05;         ///< m; vertices and lines nearer than this become one
+  double margin = 10.0;       ///< m; from the cuts to the bounding rectangle
+  /// steps a cut may take to settle …; a limit on the work: lines that settle were seen to take 155 at most
+  static constexpr std::size_t settle_steps = 300;
+  /// … and so many more for each edge that it crosses; a limit on the work
+  static constexpr std::size_t settle_steps_per_crossing = 4;
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -197,6 +197,7 @@ auto read_ground(const std::filesystem::path& path, const Options& options, cons
   const std::string subject = formats::shown_name(path);
   const auto wanted = box_of(options);
   if (!wanted) return wanted.error();
+  const auto& within = *wanted;
   Ground out;
   if (path.empty()) {
     auto way = detail::way_without_features(options.crs, meshes.own_crs_or_zone());
@@ -208,19 +209,19 @@ auto read_ground(const std::filesystem::path& path, const Options& options, cons
     auto way = detail::choose_way(chosen->file, options.crs, meshes.plan(), meshes.own_crs(), subject);
     if (!way) return way.failure();
     if (auto gone = detail::go(*way, chosen->file.features, subject); !gone) return gone.failure();
-    if (*wanted)
-      if (auto any = want_within(*chosen, **wanted, subject); !any) return any.failure();
+    if (within)
+      if (auto any = want_within(*chosen, *within, subject); !any) return any.failure();
     out.box = keep_surroundings(*chosen);
     out.chosen = std::move(*chosen);
     out.way = std::move(*way);
   }
-  if (*wanted) {
-    out.kept = **wanted;
+  if (within) {
+    auto& kept = out.kept.emplace(*within);
     if (!out.box.empty()) {
-      out.kept->add(out.box.least);
-      out.kept->add(out.box.most);
+      kept.add(out.box.least);
+      kept.add(out.box.most);
     }
-    out.kept = out.kept->grown(mesh_margin);
+    kept = kept.grown(mesh_margin);
   }
   return out;
 }
@@ -344,7 +345,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   for (std::size_t i = 0; i < 3; ++i) shift[i] = options.mesh_offset[i] - static_cast<double>(scene.frame.origin[i]);
   const Point2 origin{static_cast<double>(scene.frame.origin[0]), static_cast<double>(scene.frame.origin[1])};
   std::optional<Box2> within;
-  if (ground->kept) within = Box2{ground->kept->least - origin, ground->kept->most - origin};
+  if (const auto& kept = ground->kept) within = Box2{kept->least - origin, kept->most - origin};
   if (cells == nullptr) {
     auto clean = detail::clean(std::move(meshes->mesh), shift, within, {}, run);
     if (run.cancelled()) return base::stopped();
@@ -393,8 +394,8 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   const auto way = detail::choose_way(*file, options.crs, bounds(file->features), {}, subject);
   if (!way) return way.error();
   if (auto gone = detail::go(*way, file->features, subject); !gone) return gone.error();
-  if (*wanted)
-    if (auto any = want_within(*chosen, **wanted, subject); !any) return any.failure();
+  if (const auto& within = *wanted)
+    if (auto any = want_within(*chosen, *within, subject); !any) return any.failure();
 
   model::Scene scene;
   const Box2 box = keep_surroundings(*chosen);

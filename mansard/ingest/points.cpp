@@ -49,8 +49,8 @@ auto read_points_of_class(const std::vector<fs::path>& paths, std::uint8_t class
     if (!opened) return opened.failure();
     const auto& cloud = **opened;
     std::optional<crs::WayOfMesh> way;
-    if (cloud.info().crs && !frame.crs.empty()) {
-      auto found = crs::WayOfMesh::between(*cloud.info().crs, frame.crs, path.string());
+    if (const auto& own = cloud.info().crs; own && !frame.crs.empty()) {
+      auto found = crs::WayOfMesh::between(*own, frame.crs, path.string());
       if (!found) return found.failure();
       way = std::move(*found);
     }

@@ -36,13 +36,16 @@ auto MeshReading::each_textured(const std::vector<std::filesystem::path>& paths,
     std::vector<std::optional<base::Result<formats::TexturedMesh>>> some(std::min(at_a_time, pieces.size() - first));
     base::parallel_for(some.size(), [&](std::size_t i) {
       const auto& [source, tile] = pieces[first + i];
-      some[i] =
+      auto read =
           tile != nullptr ? formats::read_textured_tile(*tile) : formats::read_textured_file(source->path, options.up);
-      if (*some[i] && source->way) source->way->take((*some[i])->mesh.vertices);
+      if (read && source->way) source->way->take(read->mesh.vertices);
+      some[i] = std::move(read);
     });
     for (auto& one : some) {
-      if (!*one) return one->failure();
-      if (auto taken = take.meshes(std::move(**one)); !taken) return taken.failure();
+      if (!one) continue;  // each was read
+      auto& read = *one;
+      if (!read) return read.failure();
+      if (auto taken = take.meshes(*std::move(read)); !taken) return taken.failure();
     }
     run.report("texture", pieces[first].source->path.string(),
                static_cast<double>(first) / static_cast<double>(pieces.size()));

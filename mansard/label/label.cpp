@@ -38,10 +38,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("party_cosine", o.party_cosine, "", {0, 1},
               "Cosine of the maximum angle between a wall and the reverse of an opposite one.")
       .advanced("chosen by hand; not measured");
-  list.number("party_strip", o.party_strip, "m", {0.001, 10},
-              "Maximum width of the vertical strips in which that area is measured, of which a wall has 32 at least "
-              "and 2000 at most.")
-      .advanced("half of label.party_distance: no wall is resolved better");
   return list;
 }
 

@@ -17,7 +17,8 @@ struct Options {
   double party_distance = 0.1;  ///< m; walls this near a neighbour's opposite wall are party walls
   double party_share = 0.5;     ///< of a wall's area before which another one stands, from which it is a party wall
   double party_cosine = 0.966;  ///< cosine of 15°: walls that face each other within that are opposite
-  double party_strip = 0.05;    ///< m; width of the strips in which that share is measured
+  /// m; width of the strips in which that share is measured; half of party_distance: no wall is resolved better
+  static constexpr double party_strip = 0.05;
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -314,11 +314,11 @@ void measure_form(const report::EvaluationInput& input, double grid, report::Eva
   const Roof model(input.model, grid);
   out.form = evaluate::form_of(model.input(), input.scene.mesh);
   auto unchecked = out.form.unchecked;
-  if (input.truth) {
+  if (auto& scores = out.truth; input.truth && scores) {
     const Roof truth(*input.truth, grid);
-    out.truth->form = evaluate::compare_form(truth.input(), model.input(), grid);
-    out.truth->form.form = evaluate::form_of(truth.input(), input.scene.mesh);
-    unchecked += out.truth->form.unchecked + out.truth->form.form.unchecked;
+    scores->form = evaluate::compare_form(truth.input(), model.input(), grid);
+    scores->form.form = evaluate::form_of(truth.input(), input.scene.mesh);
+    unchecked += scores->form.unchecked + scores->form.form.unchecked;
   }
   if (unchecked > 0)
     out.warnings.push_back(base::warning("pipeline-evaluation-unchecked",

@@ -233,12 +233,12 @@ struct Making {
 /// Fails with "pipeline-nothing", "roof-profile", "roof-attribute".
 auto making_of(const model::Scene& scene, const Options& options) -> base::Result<Making> {
   const auto usable = std::ranges::find_if(scene.footprints, [](const auto& f) { return !f.defect.has_value(); });
-  if (usable == scene.footprints.end())
-    return base::error("pipeline-nothing",
-                       scene.footprints.empty()
-                           ? "there are no footprints"
-                           : "none of the " + std::to_string(scene.footprints.size()) +
-                                 " footprints can be used; the first: " + scene.footprints.front().defect->message);
+  if (usable == scene.footprints.end()) {
+    if (scene.footprints.empty()) return base::error("pipeline-nothing", "there are no footprints");
+    const auto& first = scene.footprints.front().defect;
+    return base::error("pipeline-nothing", "none of the " + std::to_string(scene.footprints.size()) +
+                                               " footprints can be used; the first: " + (first ? first->message : ""));
+  }
   if (auto known = roof::check_attributes(usable->attributes, options.roof); !known) return known.error();
   Making out;
   out.by_attributes = options.roof.profile.empty();
@@ -342,7 +342,8 @@ auto raise_all(const model::Scene& scene, const Making& making, const Options& o
     add_all(report.reasons, job.reasons);
     if (!job.full) report.outcome = report::Outcome::fallback;
     if (by_attributes && report.roof.empty()) report.roof = roof::to_string(job.planned.shape);
-    if (models[i]) take(std::move(job), std::move(*models[i]), out.city.buildings[job.feature], report);
+    auto& building = out.city.buildings[job.feature];
+    if (auto& model = models[i]) take(std::move(job), *std::move(model), building, report);
   }
   auto united = unite_parts(out.city.buildings);
   for (std::size_t b = 0; b < united.size(); ++b)

@@ -87,8 +87,8 @@ auto read_inputs(const InputPaths& paths, const Options& options, const base::Ru
   if (!derived) return derived.failure();
   scene->footprints = std::move(derived->footprints);
   scene->warnings.insert(scene->warnings.end(), derived->warnings.begin(), derived->warnings.end());
-  if (*box)
-    if (auto kept = keep_within(**box, *scene); !kept) return kept.failure();
+  if (const auto& within = *box)
+    if (auto kept = keep_within(*within, *scene); !kept) return kept.failure();
   return scene;
 }
 

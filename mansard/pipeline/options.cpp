@@ -1,4 +1,7 @@
 // Every module's options in one place, and the presets.
+#include <algorithm>
+#include <array>
+
 #include "mansard/base/files.hpp"
 #include "mansard/formats/codes.hpp"
 #include "mansard/picture/picture.hpp"
@@ -100,6 +103,75 @@ auto presets() -> const std::vector<Preset>& {
   return all;
 }
 
+namespace {
+
+/// An option of earlier versions, and which one to use now; none for those that changed no model.
+struct Removed {
+  std::string_view name, now;
+};
+/// docs/decisions/0104 has the measurements.
+constexpr std::array removed{
+    Removed{"block.gap_area", ""},
+    Removed{"extrude.eaves_min_soffit", ""},
+    Removed{"extrude.eaves_mitre", ""},
+    Removed{"extrude.lines_min_stretch", ""},
+    Removed{"fracture.settle_steps", ""},
+    Removed{"fracture.settle_steps_per_crossing", ""},
+    Removed{"label.party_strip", ""},
+    Removed{"profile.assumed_storey", "pipeline.assumed_height"},
+    Removed{"profile.minimum_gutter", "profile.minimum_height"},
+    Removed{"profile.step", ""},
+    Removed{"refine.cuts_max_count", ""},
+    Removed{"refine.cuts_max_directions", ""},
+    Removed{"refine.cuts_min_rise", ""},
+    Removed{"refine.cuts_rise_reach", ""},
+    Removed{"refine.forms_cap_clearance", "profile.cap_clear"},
+    Removed{"refine.forms_cap_distinct", ""},
+    Removed{"refine.forms_cap_percentile", "profile.cap_ridge"},
+    Removed{"refine.joins_max_pieces", ""},
+    Removed{"refine.joins_recut_step", "refine.cuts_min_step"},
+    Removed{"refine.joins_shared_faces", ""},
+    Removed{"refine.joins_touching", ""},
+    Removed{"refine.mansard_min_split", "refine.mansard_min_depth"},
+    Removed{"refine.outlines_max_slope", "refine.surfaces_max_slope"},
+    Removed{"refine.outlines_reach", "refine.samples_melt"},
+    Removed{"refine.outlines_trim_length", "refine.samples_melt"},
+    Removed{"refine.pieces_aside", "refine.pieces_slit"},
+    Removed{"refine.regions_gap_cells", ""},
+    Removed{"refine.regions_max_levels", ""},
+    Removed{"refine.regions_max_residual", ""},
+    Removed{"refine.regions_rim_cells", ""},
+    Removed{"refine.samples_level_band", "profile.cap_level"},
+    Removed{"refine.samples_max_cells", ""},
+    Removed{"refine.search_hopeless", ""},
+    Removed{"refine.setback_min_depth", "refine.mansard_min_depth"},
+    Removed{"refine.splits_max_count", ""},
+    Removed{"refine.splits_rows_per_bin", ""},
+    Removed{"refine.surfaces_bin", ""},
+    Removed{"refine.surfaces_plane_rounds", ""},
+    Removed{"refine.tall_spacing", ""},
+    Removed{"segment.edge_cover", ""},
+    Removed{"segment.height_spacing", ""},
+    Removed{"segment.opening", ""},
+    Removed{"segment.search_passes", ""},
+    Removed{"segment.search_piece", ""},
+    Removed{"segment.search_sequence", ""},
+    Removed{"slice.maximum_height", ""},
+    Removed{"sweep.height_percentile", ""},
+    Removed{"sweep.line_maximum_segment", ""},
+    Removed{"sweep.step_ground", "segment.min_height"},
+    Removed{"vegetation.overhang_within", "vegetation.overhang"},
+};
+
+}  // namespace
+
+auto why_removed(std::string_view key) -> std::string {
+  const auto found = std::ranges::find(removed, key, &Removed::name);
+  if (found == removed.end()) return {};
+  if (found->now.empty()) return "this option was removed, because it changed no model; leave it out";
+  return "this option was removed; use '" + std::string(found->now) + "'";
+}
+
 auto set_option(std::vector<base::OptionList>& lists, std::string_view key, std::string_view value)
     -> base::Result<void> {
   std::vector<std::string> known;
@@ -109,6 +181,7 @@ auto set_option(std::vector<base::OptionList>& lists, std::string_view key, std:
       if (name == key) return option.set(value);
       known.push_back(name);
     }
+  if (auto why = why_removed(key); !why.empty()) return base::error("option-unknown", std::move(why), std::string(key));
   const auto nearest = base::nearest_word(key, known);
   return base::error("option-unknown",
                      "there is no such option" + base::did_you_mean(nearest) + "; see 'mansard options'",

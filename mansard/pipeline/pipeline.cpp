@@ -40,10 +40,11 @@ auto reconstruct(const model::Scene& scene, const Options& options, const base::
     if (result.segmented) out.segmented.push_back(std::move(*result.segmented));
   }
   for (std::size_t f = 0; f < finished.size(); ++f) {
-    if (!finished[f] && !only.empty()) continue;
-    if (!finished[f]) finished[f] = detail::unbuilt(scene, f, options);
-    out.city.buildings.push_back(std::move(finished[f]->building));
-    out.buildings.push_back(std::move(finished[f]->report));
+    auto& made = finished[f];
+    if (!made && !only.empty()) continue;
+    if (!made) made = detail::unbuilt(scene, f, options);
+    out.city.buildings.push_back(std::move(made->building));
+    out.buildings.push_back(std::move(made->report));
   }
   out.scores = detail::combined_scores(out.blocks);
   detail::report_overlaps(out, run);

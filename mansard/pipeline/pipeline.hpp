@@ -73,7 +73,12 @@ struct Preset {
 /// `paper` (the published numbers) and `chordatlas` (what the reference implementation runs).
 [[nodiscard]] auto presets() -> const std::vector<Preset>&;
 
-/// Sets "module.name". Fails with "option-unknown" (names the nearest known one) or "option-value".
+/// Of an option "module.name" that there was once: a sentence that says so, and which one has the same meaning now.
+/// Empty for all other names.
+[[nodiscard]] auto why_removed(std::string_view key) -> std::string;
+
+/// Sets "module.name". Fails with "option-unknown" (names the nearest known one, or says that it was removed) or
+/// "option-value".
 [[nodiscard]] auto set_option(std::vector<base::OptionList>& lists, std::string_view key, std::string_view value)
     -> base::Result<void>;
 

@@ -34,7 +34,9 @@ auto raise_plans(model::City city, const Options& options, const base::Run& run)
   std::vector<std::vector<model::Part>> kept(city.buildings.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     model::Part& part = part_at(places[i]);
-    auto& result = *raised[i];
+    auto& made = raised[i];
+    if (!made) continue;  // each was made
+    auto& result = *made;
     if (!result) {
       for (const auto& why : result.errors()) out.refused.push_back({why.severity, why.code, why.message, part.id});
       continue;

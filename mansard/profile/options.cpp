@@ -10,9 +10,6 @@ auto option_list(Options& o) -> base::OptionList {
       .source("paper, Figure 7");
   list.number("spacing", o.spacing, "m", {0.05, 5}, "Distance between perpendicular slices along an edge.")
       .source("paper: 0.2 m");
-  list.number("step", o.step, "m", {0.05, 10},
-              "Distance up to which a slice is followed from one piece of mesh to the next.")
-      .source("reference implementation chordatlas: 1 m");
   list.number("jump", o.jump, "m", {0.05, 20}, "Width of a hole or parapet over which a slice is followed.")
       .source("reference implementation chordatlas: 3 m");
   list.number("support", o.support, "", {0, 1}, "Share of an edge's slices that must agree with a pitch.")
@@ -143,8 +140,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("setback_level", o.setback_level, "m", {0, 20},
               "Maximum height difference within the part before a setback.")
       .advanced("chosen by hand; not measured");
-  list.number("minimum_gutter", o.minimum_gutter, "m", {0.01, 20}, "Minimum height of the wall under a roof.")
-      .advanced("chosen by hand; not measured");
   list.number("level_slope", o.level_slope, "", {0, 1}, "Slope below which a pitch is level.")
       .advanced("chosen by hand; not measured");
   list.integer("pitch_columns", o.pitch_columns, "", {2, 100}, "Minimum number of columns of a pitch.")
@@ -179,8 +174,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("gentle_turn", o.gentle_turn, "", {0, 10},
               "Tangent of the maximum angle between a short edge and the neighbour whose profile it takes.")
       .advanced("chosen by hand; not measured");
-  list.number("assumed_storey", o.assumed_storey, "m", {0.5, 50}, "Height of a building without mesh coverage.")
-      .advanced("one storey");
   list.number("minimum_height", o.minimum_height, "m", {0.01, 50}, "Minimum height of a building.")
       .advanced("chosen by hand; not measured");
   list.number("cap_distinct", o.cap_distinct, "m", {0, 20}, "Minimum difference between two candidate cap heights.")

@@ -17,7 +17,6 @@ enum class Overhangs : std::uint8_t { off, measured, soffits };
 struct Options {
   Quality quality = Quality::high;
   double spacing = 0.2;         ///< m between perpendicular slices along an edge
-  double step = 1.0;            ///< m; the climb goes on to a piece this near
   double jump = 3.0;            ///< m; failing that, over a hole or parapet this wide
   double support = 0.2;         ///< share of an edge's slices that must support a line
   double vertical_angle = 0.1;  ///< rad; lines this near to vertical become vertical
@@ -81,7 +80,6 @@ struct Options {
   double setback_level = 1.0;     ///< m between the heights of the part before it
 
   // Pitches.
-  double minimum_gutter = 0.5;    ///< m; the prior wants a wall under every roof
   double level_slope = 0.05;      ///< slope; flatter is flat
   std::size_t pitch_columns = 4;  ///< columns of a pitch, at least
   double pitch_price = 0.15;  ///< m² · columns: what another pitch must save, 0.1 m over about fifteen columns (3 m of
@@ -97,7 +95,7 @@ struct Options {
   double gentle_turn = 0.5463;          ///< tangent of 0.5 rad: runs follow neighbours that they turn from by less
 
   // Heights and caps.
-  double assumed_storey = 3.0;  ///< m; where nothing was seen at all
+  double assumed_height = 3.0;  ///< m; where nothing was seen at all; no option: pipeline.assumed_height
   double minimum_height = 0.5;  ///< m; of ground-level "buildings", so that there is a solid at all
   double cap_distinct = 0.1;    ///< m between candidate caps
   double cap_clear = 0.5;       ///< m above the profiles' tops, so that roofs can close

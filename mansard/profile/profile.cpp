@@ -154,7 +154,7 @@ auto prepare(const segment::Part& part, const block::Block& block, const rays::S
   std::ranges::sort(work.heights);
   const double least = options.minimum_height;
   if (!work.heights.empty()) work.height = std::max(least, base::median_of_sorted(work.heights));
-  else work.height = part.height - work.base > least ? part.height - work.base : options.assumed_storey;
+  else work.height = part.height - work.base > least ? part.height - work.base : options.assumed_height;
   return work;
 }
 

@@ -162,8 +162,8 @@ struct Scene::Parts {
   geometry::Mesh mesh;
   std::vector<std::uint32_t> hiding;  ///< of the mesh, ascending
   std::once_flag tree_once, above_once;
-  std::optional<Tree> tree_;
-  std::optional<detail::FromAbove> above_;
+  std::unique_ptr<const Tree> tree_;
+  std::unique_ptr<const detail::FromAbove> above_;
 
   Parts(geometry::Mesh of, std::vector<std::uint32_t> without) : mesh(std::move(of)), hiding(std::move(without)) {}
   [[nodiscard]] auto empty() const -> bool { return mesh.triangles.size() == hiding.size(); }
@@ -172,13 +172,13 @@ struct Scene::Parts {
   }
   auto tree() -> const Tree& {
     std::call_once(tree_once, [&] {
-      if (hiding.empty()) tree_.emplace(mesh);
-      else tree_.emplace(remaining());
+      if (hiding.empty()) tree_ = std::make_unique<const Tree>(mesh);
+      else tree_ = std::make_unique<const Tree>(remaining());
     });
     return *tree_;
   }
   auto above() -> const detail::FromAbove& {
-    std::call_once(above_once, [&] { above_.emplace(mesh); });
+    std::call_once(above_once, [&] { above_ = std::make_unique<const detail::FromAbove>(mesh); });
     return *above_;
   }
 

@@ -63,12 +63,6 @@ void add_samples(OptionList& list, Options::Samples& o) {
   list.number("samples_margin_weight", o.margin_weight, "", share,
               "Weight of a sample within the margin of a part's outline; all other samples have weight 1.")
       .advanced(by_hand)
-      .number("samples_max_cells", o.max_cells, "", {100, 1e9},
-              "A part that would have more samples than this is sampled at a multiple of the grid.")
-      .advanced("a hall of 9,000 m² at 0.25 m stays at full resolution; not measured")
-      .number("samples_level_band", o.level_band, "m", positive_length,
-              "The level of a flat roof is the middle of the band of this height that contains the most samples.")
-      .advanced(by_hand)
       .number("samples_melt", o.melt, "m", length,
               "A scan rounds off whatever is nearer to a wall or a crease than this; such samples are not read where a "
               "wall or a plane is placed.")
@@ -98,15 +92,6 @@ void add_forms(OptionList& list, Options::Forms& o) {
       .number("forms_min_height", o.min_height, "m", {0.01, 100},
               "Minimum height of a proposed wall or cap above the base.")
       .advanced("any positive height gives a solid; chosen by hand")
-      .number("forms_cap_percentile", o.cap_percentile, "", share,
-              "The top of a roof is this percentile of the sampled heights.")
-      .advanced(by_hand)
-      .number("forms_cap_clearance", o.cap_clearance, "m", length,
-              "The cap of a pitched roof is this much above its top, so that the roof can close below it.")
-      .advanced(by_hand)
-      .number("forms_cap_distinct", o.cap_distinct, "m", length,
-              "Two caps nearer to each other than this are one candidate.")
-      .advanced(by_hand)
       .number("forms_min_slope", o.min_slope, "", slope, "A form with a smaller slope (rise per run) is not proposed.")
       .advanced(by_hand)
       .number("forms_max_slope", o.max_slope, "", slope, "A form with a greater slope (rise per run) is not proposed.")
@@ -129,10 +114,7 @@ void add_forms(OptionList& list, Options::Forms& o) {
 }
 
 void add_mansard(OptionList& list, Options::Mansard& o) {
-  list.number("mansard_min_split", o.min_split, "m", length,
-              "Samples are split into a steep and a flat roof no nearer to the outline than this.")
-      .advanced("half of refine.mansard_min_depth; not measured")
-      .number("mansard_min_depth", o.min_depth, "m", length, "Minimum run of the steep part of a mansard roof.")
+  list.number("mansard_min_depth", o.min_depth, "m", length, "Minimum run of the steep part of a mansard roof.")
       .advanced("a melted corner is smaller; docs/refine.md, not measured")
       .number("mansard_max_depth", o.max_depth, "m", length, "Maximum run of the steep part of a mansard roof.")
       .advanced(by_hand)
@@ -147,9 +129,7 @@ void add_mansard(OptionList& list, Options::Mansard& o) {
 }
 
 void add_setback(OptionList& list, Options::Setback& o) {
-  list.number("setback_min_depth", o.min_depth, "m", length, "Minimum depth of a level strip along a side.")
-      .advanced(decision_17)
-      .number("setback_max_depth", o.max_depth, "m", length, "Maximum depth of a level strip along a side.")
+  list.number("setback_max_depth", o.max_depth, "m", length, "Maximum depth of a level strip along a side.")
       .advanced(decision_17)
       .number("setback_behind", o.behind, "m", length,
               "Behind the deepest strip, samples are read up to this distance.")
@@ -196,9 +176,6 @@ void add_search(OptionList& list, Options::Search& o) {
       .advanced(by_hand)
       .integer("search_quick_starts", o.quick_starts, "", some, "Number of forms that a quick search follows.")
       .advanced(by_hand)
-      .number("search_hopeless", o.hopeless, "", {1, 1000},
-              "A search ends where the roof costs more than this multiple of what it may cost.")
-      .advanced("searching on never halved a roof's cost; no record of the measurement")
       .integer("search_rounds", o.rounds, "", count, "Number of times that all sides of a part are tried in turn.")
       .advanced(by_hand)
       .number("search_round_gain", o.round_gain, "", share,
@@ -242,10 +219,7 @@ void add_alike(OptionList& list, Options::Alike& o) {
 }
 
 void add_pieces(OptionList& list, Options::Pieces& o) {
-  list.number("pieces_aside", o.aside, "m", length,
-              "An edge takes the profile of an edge that runs beside it at no more than this distance.")
-      .advanced("straightened neighbours differ by up to 0.01 m; twice that")
-      .number("pieces_profile_share", o.profile_share, "", share,
+  list.number("pieces_profile_share", o.profile_share, "", share,
               "An edge takes a profile where at least this share of its length runs along edges with it.")
       .advanced(by_hand)
       .number(
@@ -283,8 +257,6 @@ void add_tall(OptionList& list, Options::Tall& o) {
       .number("tall_walls", o.walls, "", share,
               "Walls are seen where the scan is near to this share of the places that are looked at on them.")
       .advanced(decision_86)
-      .number("tall_spacing", o.spacing, "m", positive_length, "Distance between these places, along and up a wall.")
-      .advanced(by_hand)
       .number("tall_clear", o.clear, "m", length,
               "These places are so far below the upper and above the lower end of a wall.")
       .advanced("more than tall_reach, so that no roof is near")
@@ -297,24 +269,12 @@ void add_tall(OptionList& list, Options::Tall& o) {
 }
 
 void add_joins(OptionList& list, Options::Joins& o) {
-  list.number("joins_touching", o.touching, "m", length,
-              "Two parts are considered together where the boxes around them are no farther apart than this.")
-      .advanced(by_hand)
-      .number("joins_quick_excess", o.quick_excess, "", {1, 1000},
+  list.number("joins_quick_excess", o.quick_excess, "", {1, 1000},
               "Two parts are searched as one where a quick roof costs less than this multiple of both.")
       .advanced("searching edge by edge seldom takes more off; no record of the measurement")
-      .integer("joins_shared_faces", o.shared_faces, "", count,
-               "Number of faces that joining two flat parts may save, for the test whether joining them can pay.")
-      .advanced(by_hand)
-      .number("joins_recut_step", o.recut_step, "m", height,
-              "Only differences greater than this are evidence that two parts meet in the wrong place.")
-      .advanced(by_hand)
       .number(
           "joins_recut_reach", o.recut_reach, "m", length,
           "Only differences nearer than this to the other part are evidence that two parts meet in the wrong place.")
-      .advanced(by_hand)
-      .integer("joins_max_pieces", o.max_pieces, "", some,
-               "The parts of a feature are not cut into more pieces than this.")
       .advanced(by_hand)
       .integer("joins_rounds", o.rounds, "", count, "Maximum number of rounds of joining, cutting and cutting again.")
       .advanced("what one step leaves behind may be what another needed; not measured")
@@ -380,8 +340,6 @@ void add_cuts(OptionList& list, Options::Cuts& o) {
       .advanced(by_hand)
       .number("cuts_min_width", o.min_width, "m", length,
               "A structure with a smaller mean width is a chimney or a rounded edge.")
-      .advanced(by_hand)
-      .integer("cuts_max_count", o.max_count, "", count, "Number of cuts of a part that are tried at a time.")
       .advanced(by_hand);
   add_roughness(list, o);
   list.number("cuts_line_gain", o.line_gain, "", share,
@@ -403,8 +361,6 @@ void add_cuts(OptionList& list, Options::Cuts& o) {
               "The walls of a structure are a direction of their own where they differ from all others by more than "
               "this.")
       .advanced("8°; chosen by hand, not measured")
-      .integer("cuts_max_directions", o.max_directions, "", some, "Number of directions in which cuts are looked for.")
-      .advanced(by_hand)
       .number("cuts_max_cells", o.max_cells, "", {1, 1e9},
               "Cuts are compared with at most about this many samples; of more, every second or third is used.")
       .advanced(by_hand)
@@ -413,15 +369,7 @@ void add_cuts(OptionList& list, Options::Cuts& o) {
       .advanced(by_hand)
       .number("cuts_sliver_width", o.sliver_width, "m", length,
               "A piece of a smaller mean width that a cut would leave goes with the structure.")
-      .advanced(by_hand)
-      .number("cuts_rise_reach", o.rise_reach, "m", length,
-              "The height of a structure above the roof around it is read up to this distance from its walls. It is "
-              "only told, and decides nothing.")
-      .advanced("four times refine.samples_melt; not measured")
-      .number("cuts_min_rise", o.min_rise, "m", height,
-              "A structure whose height differs by less than this is reported as a roof of its own. Nothing else "
-              "depends on it.")
-      .advanced("half of refine.cuts_min_step; not measured");
+      .advanced(by_hand);
 }
 
 void add_dormers(OptionList& list, Options::Dormers& o) {
@@ -469,13 +417,7 @@ void add_directions(OptionList& list, Options::Directions& o) {
 }
 
 void add_regions(OptionList& list, Options::Regions& o) {
-  list.integer("regions_gap_cells", o.gap_cells, "", count,
-               "Gaps without samples are filled by this many cells from each side.")
-      .advanced(by_hand)
-      .number("regions_bin", o.bin, "m", {0.01, 10}, "Width of a bin in the histogram of height differences.")
-      .advanced(by_hand)
-      .number("regions_max_residual", o.max_residual, "m", {1, 1000},
-              "Height differences greater than this count as this.")
+  list.number("regions_bin", o.bin, "m", {0.01, 10}, "Width of a bin in the histogram of height differences.")
       .advanced(by_hand)
       .number("regions_peak_share", o.peak_share, "", {0, 100},
               "A peak of the histogram holds at least this share of refine.least_area in its three bins.")
@@ -483,8 +425,6 @@ void add_regions(OptionList& list, Options::Regions& o) {
       .number("regions_valley", o.valley, "", share,
               "Two peaks of the histogram are two levels where the valley between them is lower than this share of the "
               "lower one.")
-      .advanced(by_hand)
-      .integer("regions_max_levels", o.max_levels, "", count, "Number of levels between which regions are looked for.")
       .advanced(by_hand)
       .number("regions_level_clearance", o.level_clearance, "", {0, 100},
               "A level is used where it differs from the model by more than this multiple of refine.cuts_min_step.")
@@ -497,9 +437,6 @@ void add_regions(OptionList& list, Options::Regions& o) {
       .advanced(by_hand)
       .number("regions_hollow_share", o.hollow_share, "", share,
               "What a region surrounds is tried in its place where the region fills at most this share of its box.")
-      .advanced(by_hand)
-      .integer("regions_rim_cells", o.rim_cells, "", count,
-               "The rim of a region is looked for up to this many cells outside its box.")
       .advanced(by_hand)
       .number("regions_agreement", o.agreement, "", share,
               "The walls of a region have a direction where their resultant is at least this share of their sum.")
@@ -528,18 +465,11 @@ void add_rectangles(OptionList& list, Options::Outlines& o) {
 
 void add_outlines(OptionList& list, Options::Outlines& o) {
   add_rectangles(list, o);
-  list.number("outlines_reach", o.reach, "m", length,
-              "The roofs on both sides of a wall are read up to this distance from "
-              "it.")
-      .advanced("three times refine.samples_melt; not measured")
-      .number("outlines_min_contrast", o.min_contrast, "m", height,
+  list.number("outlines_min_contrast", o.min_contrast, "m", height,
               "A wall is moved to a step where the roofs on both sides differ by at least this.")
       .advanced(by_hand)
       .number("outlines_max_move", o.max_move, "m", length, "Maximum distance by which a wall is moved to a step.")
       .advanced(by_hand)
-      .number("outlines_max_slope", o.max_slope, "", slope,
-              "A roof beside a wall with a greater slope (rise per run) is another wall and counts as level.")
-      .advanced("1.5 is 56°; chosen by hand, not measured")
       .number("outlines_row_share", o.row_share, "", share,
               "A column beside a wall is used where at least this share of its rows was sampled.")
       .advanced(by_hand)
@@ -548,9 +478,6 @@ void add_outlines(OptionList& list, Options::Outlines& o) {
       .integer("outlines_settle_rounds", o.settle_rounds, "", count,
                "Number of times that all walls of an outline are moved to steps.")
       .advanced(by_hand)
-      .number("outlines_trim_length", o.trim_length, "m", length,
-              "The ends of a wall longer than this are not read, because corners melt.")
-      .advanced("four times refine.samples_melt; not measured")
       .number("outlines_push_share", o.push_share, "", share,
               "A wall goes out to the part's edge where at least this share of its rows ends near it.")
       .advanced(by_hand)
@@ -574,11 +501,6 @@ void add_outlines(OptionList& list, Options::Outlines& o) {
 void add_splits(OptionList& list, Options::Splits& o) {
   list.number("splits_apart", o.apart, "m", length, "Two lines across a part are at least this far apart.")
       .advanced(by_hand)
-      .integer("splits_max_count", o.max_count, "", count, "Number of lines across a part in one direction.")
-      .advanced(by_hand)
-      .integer("splits_rows_per_bin", o.rows_per_bin, "", some,
-               "Ridges across a line are tried at every so many rows of cells.")
-      .advanced(by_hand)
       .number("splits_row_share", o.row_share, "", share,
               "A line is a step or a valley where more than this share of its rows is.")
       .advanced(by_hand)
@@ -591,9 +513,7 @@ void add_splits(OptionList& list, Options::Splits& o) {
 }
 
 void add_surfaces(OptionList& list, Options::Surfaces& o) {
-  list.number("surfaces_bin", o.bin, "m", {0.05, 10}, "Ridges are tried at this distance from each other.")
-      .advanced(by_hand)
-      .number("surfaces_ridge_min_area", o.ridge_min_area, "m²", area, "A ridge is tried on an area of at least this.")
+  list.number("surfaces_ridge_min_area", o.ridge_min_area, "m²", area, "A ridge is tried on an area of at least this.")
       .advanced("on less, a ridge fits the crown of a tree as well as a roof; not measured")
       .number("surfaces_max_slope", o.max_slope, "", slope,
               "A ridge whose sides have a greater slope (rise per run) is not a roof.")
@@ -602,9 +522,6 @@ void add_surfaces(OptionList& list, Options::Surfaces& o) {
           "surfaces_model_share", o.model_share, "", share,
           "A cut is evaluated by what two surfaces explain beyond one where one explains at least all but this share "
           "of the model's error.")
-      .advanced(by_hand)
-      .integer("surfaces_plane_rounds", o.plane_rounds, "", {1, 20},
-               "Number of times that a plane takes in the samples near it, each time within half of the distance.")
       .advanced(by_hand);
 }
 

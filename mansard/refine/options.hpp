@@ -30,9 +30,9 @@ struct Options {
   /// What the mesh shows, and how much a sample counts (site, refit, and wherever a wall is near).
   struct Samples {
     double margin_weight = 0.2;
-    double max_cells = 150'000;
-    double level_band = 0.5;  ///< m
-    double melt = 0.5;        ///< m
+    static constexpr double max_cells = 150'000;  ///< bounds memory: a hall of 9,000 m² is still sampled at 0.25 m
+    double level_band = 0.5;                      ///< m; no option: profile.cap_level
+    double melt = 0.5;                            ///< m
   } samples;
 
   /// Robust lines through heights (lines).
@@ -46,10 +46,10 @@ struct Options {
   /// The forms of roof that every part is tried with (forms).
   struct Forms {
     std::int64_t samples = 800;
-    double min_height = 0.5;  ///< m
-    double cap_percentile = 0.99;
-    double cap_clearance = 0.5;  ///< m
-    double cap_distinct = 0.05;  ///< m
+    double min_height = 0.5;                      ///< m
+    double cap_percentile = 0.99;                 ///< no option: profile.cap_ridge
+    double cap_clearance = 0.5;                   ///< m; no option: profile.cap_clear
+    static constexpr double cap_distinct = 0.05;  ///< m; nearer ones are one candidate, tried once
     double min_slope = 0.05;
     double max_slope = 5;
     std::int64_t max_axes = 3;
@@ -61,20 +61,18 @@ struct Options {
 
   /// A steep foot below a flatter roof (forms).
   struct Mansard {
-    double min_split = 0.35;  ///< m
-    double min_depth = 0.7;   ///< m
-    double max_depth = 3;     ///< m
-    double min_rise = 1.5;    ///< m
+    double min_depth = 0.7;  ///< m
+    double max_depth = 3;    ///< m
+    double min_rise = 1.5;   ///< m
     double min_slope = 1.2;
     double upper_share = 0.5;
   } mansard;
 
   /// A level strip along a side with something higher behind it (forms).
   struct Setback {
-    double min_depth = 0.7;  ///< m
-    double max_depth = 4;    ///< m
-    double behind = 3;       ///< m
-    double min_rise = 0.8;   ///< m
+    double max_depth = 4;   ///< m
+    double behind = 3;      ///< m
+    double min_rise = 0.8;  ///< m
     double max_rest = 0.8;
     double tower_reach = 1;  ///< m
     double tower_share = 0.8;
@@ -95,7 +93,7 @@ struct Options {
     std::int64_t settle_rounds = 3;
     std::int64_t starts = 4;
     std::int64_t quick_starts = 2;
-    double hopeless = 2;
+    static constexpr double hopeless = 2;  ///< a limit on the search: going on never halved a roof's cost
     std::int64_t rounds = 2;
     double round_gain = 0.98;
     std::int64_t max_sides = 24;
@@ -118,7 +116,6 @@ struct Options {
 
   /// Plans cut in two and joined (pieces).
   struct Pieces {
-    double aside = 0.02;  ///< m
     double profile_share = 0.5;
     double seen_share = 0.7;
     double min_width = 0.6;  ///< m
@@ -138,21 +135,21 @@ struct Options {
   struct Tall {
     double ratio = 3;
     double walls = 0.5;
-    double spacing = 0.5;  ///< m
-    double clear = 0.5;    ///< m
-    double reach = 0.4;    ///< m
-    double inside = 0.4;   ///< m
-    double beside = 0.75;  ///< m
+    static constexpr double spacing = 0.5;  ///< m; of the grid of places
+    double clear = 0.5;                     ///< m
+    double reach = 0.4;                     ///< m
+    double inside = 0.4;                    ///< m
+    double beside = 0.75;                   ///< m
   } tall;
 
   /// Which parts are joined, cut and cut again (work, owner).
   struct Joins {
-    double touching = 0.05;  ///< m
+    /// m; straightened neighbours differ by up to 0.01 m: five times that
+    static constexpr double touching = 0.05;
     double quick_excess = 1.25;
-    std::int64_t shared_faces = 8;
-    double recut_step = 0.5;   ///< m
-    double recut_reach = 1.5;  ///< m
-    std::int64_t max_pieces = 64;
+    static constexpr std::int64_t shared_faces = 8;  ///< a bound, so that joins which cannot pay are not tried
+    double recut_reach = 1.5;                        ///< m
+    static constexpr std::int64_t max_pieces = 64;   ///< a limit on the search
     std::int64_t rounds = 2;
     double round_gain = 0.95;
   } joins;
@@ -166,11 +163,11 @@ struct Options {
 
   /// What may become a part of its own (propose).
   struct Cuts {
-    double min_step = 0.5;   ///< m
-    double min_width = 0.8;  ///< m
-    std::int64_t max_count = 6;
-    double crisp_rms = 0.15;   ///< m
-    double smooth_rms = 0.35;  ///< m
+    double min_step = 0.5;                        ///< m
+    double min_width = 0.8;                       ///< m
+    static constexpr std::int64_t max_count = 6;  ///< a limit on the search
+    double crisp_rms = 0.15;                      ///< m
+    double smooth_rms = 0.35;                     ///< m
     double smooth_by_height = 0.12;
     double fullness = 0.73;
     std::int64_t fullness_part = 20;
@@ -185,13 +182,13 @@ struct Options {
     double same_share = 0.25;
     double shape_price = 0.04;
     double askew_price = 0.25;
-    double new_direction = 0.14;  ///< rad
-    std::int64_t max_directions = 4;
+    double new_direction = 0.14;                       ///< rad
+    static constexpr std::int64_t max_directions = 4;  ///< a limit on the search
     double max_cells = 8000;
-    double sliver_area = 1;     ///< m²
-    double sliver_width = 0.5;  ///< m
-    double rise_reach = 2;      ///< m
-    double min_rise = 0.25;     ///< m
+    double sliver_area = 1;                   ///< m²
+    double sliver_width = 0.5;                ///< m
+    static constexpr double rise_reach = 2;   ///< m; four times samples.melt; only told, decides nothing
+    static constexpr double min_rise = 0.25;  ///< m; half of min_step; only told, decides nothing
   } cuts;
 
   /// Dormers on slopes, parts of their own (dormers).
@@ -217,17 +214,17 @@ struct Options {
 
   /// Connected regions above or below the model (propose_regions).
   struct Regions {
-    std::int64_t gap_cells = 3;
-    double bin = 0.25;         ///< m
-    double max_residual = 40;  ///< m
+    static constexpr std::int64_t gap_cells = 3;  ///< of the grid
+    double bin = 0.25;                            ///< m
+    static constexpr double max_residual = 40;    ///< m; the histogram ends there
     double peak_share = 0.5;
     double valley = 0.5;
-    std::int64_t max_levels = 6;
+    static constexpr std::int64_t max_levels = 6;  ///< a limit on the search
     double level_clearance = 1.5;
     double min_area_share = 0.75;
     double seen_share = 0.6;
     double hollow_share = 0.75;
-    std::int64_t rim_cells = 2;
+    static constexpr std::int64_t rim_cells = 2;  ///< of the grid
     double agreement = 0.6;
   } regions;
 
@@ -239,14 +236,11 @@ struct Options {
     double min_area_share = 0.4;
     double min_addition = 0.08;
     double min_width_share = 0.8;
-    double reach = 1.5;         ///< m
     double min_contrast = 0.3;  ///< m
     double max_move = 1;        ///< m
-    double max_slope = 1.5;
     double row_share = 0.3;
     std::int64_t step_rounds = 3;
     std::int64_t settle_rounds = 2;
-    double trim_length = 2;  ///< m
     double push_share = 0.9;
     double near_edge = 0.6;   ///< m
     double near_line = 0.25;  ///< m
@@ -257,9 +251,9 @@ struct Options {
 
   /// Straight lines across a part (propose_split).
   struct Splits {
-    double apart = 1.5;  ///< m
-    std::int64_t max_count = 3;
-    std::int64_t rows_per_bin = 2;
+    double apart = 1.5;                              ///< m
+    static constexpr std::int64_t max_count = 3;     ///< a limit on the search
+    static constexpr std::int64_t rows_per_bin = 2;  ///< of the grid
     double row_share = 0.6;
     double step_share = 0.7;
     double min_valley = 0.15;  ///< m
@@ -267,11 +261,11 @@ struct Options {
 
   /// Simple surfaces that cuts are judged by (propose_surface).
   struct Surfaces {
-    double bin = 0.5;            ///< m
-    double ridge_min_area = 30;  ///< m²
+    static constexpr double bin = 0.5;  ///< m; of the grid
+    double ridge_min_area = 30;         ///< m²
     double max_slope = 1.5;
     double model_share = 0.5;
-    std::int64_t plane_rounds = 3;
+    static constexpr std::int64_t plane_rounds = 3;  ///< a limit on the search
   } surfaces;
 };
 

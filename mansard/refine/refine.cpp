@@ -32,8 +32,9 @@ auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Option
   std::vector<std::vector<detail::Piece>> made(pieces.size());
   base::parallel_for(pieces.size(), [&](std::size_t i) { made[i] = work.with_dormers(std::move(pieces[i])); });
   for (auto& piece : std::views::join(made))
-    out.parts.push_back({drafts[piece.draft_index].owner, piece.draft_index, std::move(piece.roof.plan),
-                         std::move(*piece.raised), std::move(piece.changes)});
+    if (auto& raised = piece.raised)  // each has one by now
+      out.parts.push_back({drafts[piece.draft_index].owner, piece.draft_index, std::move(piece.roof.plan),
+                           *std::move(raised), std::move(piece.changes)});
   std::ranges::stable_sort(out.parts, {}, &Part::draft);
   std::ranges::stable_sort(out.failed, {}, [](const auto& failure) { return failure.first; });
   return out;

@@ -73,7 +73,7 @@ auto json_of(const BuildingScores& b, bool independent) -> Json {
            {"scores", own(b.scores)},
            {"prism", std::move(prism)},
            {"worse_than_prism", worse_than_prism(b)}};
-  if (b.from_truth) {
+  if (b.from_truth && b.prism_from_truth) {
     Json truth = own(*b.from_truth);
     truth["prism_footprint_mse_m2"] = b.prism_from_truth->footprint_mse;
     truth["worse_than_prism"] = worse_than_prism_from_truth(b);
@@ -198,8 +198,7 @@ auto prism_lines(const evaluate::Scores& prism, const std::vector<BuildingScores
               std::to_string(ids.size()) + " of " + std::to_string(buildings.size()) + " buildings" + named);
 }
 
-auto table_of(const Evaluation& e, double inset) -> std::string {
-  const auto& t = *e.truth;
+auto table_of(const Evaluation& e, const TruthScores& t, double inset) -> std::string {
   const auto& r = t.roofs;
   std::string out = "\nagainst the truth\n";
   out += line("  over the footprints", to_text(t.scores.footprint_mse, 4) + " m², median absolute " +
@@ -258,7 +257,7 @@ auto worse_than_prism(const BuildingScores& building) -> bool {
 }
 
 auto worse_than_prism_from_truth(const BuildingScores& building) -> bool {
-  return building.from_truth &&
+  return building.from_truth && building.prism_from_truth &&
          building.from_truth->footprint_mse > building.prism_from_truth->footprint_mse + worse_by;
 }
 
@@ -350,7 +349,7 @@ auto evaluation_table(const Evaluation& e, const EvaluationInput& input) -> std:
   }
   out += "form\n";
   for (const auto& [what, value] : detail::lines_of(e.form)) out += line(what, value);
-  if (e.truth) out += table_of(e, inset);
+  if (e.truth) out += table_of(e, *e.truth, inset);
   return out;
 }
 

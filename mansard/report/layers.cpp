@@ -240,15 +240,17 @@ auto empty_edges() -> formats::Layer {
 
 /// `walls`: of the models; none where there are none.
 void add_edges(const SegmentedBlock& block, const detail::FinalWalls* walls, formats::Layer& layer) {
+  const auto& segmentation = block.segmentation;
+  if (!segmentation) return;
   const auto fields = edge_fields();
-  const auto conflicts = detail::walls_in_conflict(*block.segmentation);
-  for (std::size_t i = 0; i < block.segmentation->candidates.size(); ++i) {
-    const auto& c = block.segmentation->candidates[i];
+  const auto conflicts = detail::walls_in_conflict(*segmentation);
+  for (std::size_t i = 0; i < segmentation->candidates.size(); ++i) {
+    const auto& c = segmentation->candidates[i];
     Values values{block.name, as_whole(i)};
     for (const auto& field : fields) values.push_back(field.value(c));
     std::vector<geometry::Segment2> segments;
     for (const std::uint32_t h : c.half_edges) segments.push_back(block.arrangement.segment(h));
-    detail::Beside beside{conflicts[i], block.segmentation->phi, {}, {}};
+    detail::Beside beside{conflicts[i], segmentation->phi, {}, {}};
     if (!c.sweep) beside.sweep_edge = detail::parallel_sweep_edge(segments, block.sweep_edges);
     if (walls && c.chosen) {
       const auto& [kept, moved, dropped, by] = beside.later.emplace(walls->later(segments));
@@ -271,8 +273,10 @@ auto empty_conflicts() -> formats::Layer {
 }
 
 void add_conflicts(const SegmentedBlock& block, formats::Layer& layer) {
+  const auto& segmentation = block.segmentation;
+  if (!segmentation) return;
   const auto& [candidates, conflicts, phi] =
-      std::tie(block.segmentation->candidates, block.segmentation->conflicts, block.segmentation->phi);
+      std::tie(segmentation->candidates, segmentation->conflicts, segmentation->phi);
   for (std::size_t i = 0; i < conflicts.size(); ++i) {
     const auto& [first, second] = conflicts[i];
     Lines lines = lines_of(block, candidates[first]);

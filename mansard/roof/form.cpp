@@ -122,7 +122,8 @@ class Reader {
     if (!found) return 0;
     const bool room = form.roof_included || form.shape == Shape::flat ? *found < form.height : *found <= form.height;
     if (room) return *found;
-    warn("roof-conflict", *tags_.find(key), "is not below the building's " + shown(form.height) + " m; it is left out");
+    if (const auto tag = tags_.find(key))
+      warn("roof-conflict", *tag, "is not below the building's " + shown(form.height) + " m; it is left out");
     return 0;
   }
 
@@ -136,8 +137,9 @@ class Reader {
         found = *levels * options_.level_height;
     const double room = form.height - form.base;
     if (found && form.roof_included && *found > room) {
-      warn("roof-conflict", *tags_.find(key),
-           "is " + shown(*found) + " m, more than the building's " + shown(room) + " m; it is left out");
+      if (const auto tag = tags_.find(key))
+        warn("roof-conflict", *tag,
+             "is " + shown(*found) + " m, more than the building's " + shown(room) + " m; it is left out");
       found.reset();
     }
     form.rise = found;

@@ -93,9 +93,6 @@ auto option_list(Options& o) -> base::OptionList {
               "Share of a face within the footprints above which the face is inside even without mesh, and is not "
               "peeled off.")
       .advanced("chosen by hand; not measured");
-  list.number("height_spacing", o.height_spacing, "m", {0.02, 20},
-              "Spacing of the height samples along an edge when segment.height_measure is along.")
-      .advanced("chosen by hand; not measured");
   list.number("gis_near", o.gis_near, "m", {0.001, 10},
               "Maximum distance between an edge of a footprint and a neighbour's edge or a wall that runs along it.")
       .advanced("docs/decisions/0015; not measured");
@@ -125,19 +122,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("collinear", o.collinear, "m", {0, 1},
               "Corners of a part nearer than this to the edge without them are removed.")
       .advanced("a tenth of what surveys resolve; not measured");
-  list.number("opening", o.opening, "m", {0.0001, 1}, "Distance by which a part that touches itself is drawn back.")
-      .advanced("a tenth of what surveys resolve; not measured");
-  list.number("edge_cover", o.edge_cover, "", {0, 1},
-              "Minimum share of a part's edge along which a sweep-edge runs that is its origin.")
-      .advanced("chosen by hand; not measured");
-  list.integer("search_piece", o.search.piece, "", {2, 1e6},
-               "Maximum number of faces in two groups between which the heuristic search moves sequences of faces.")
-      .advanced("decides how soon the optimum is proven, and the answer only when a limit stops the solver");
-  list.integer("search_sequence", o.search.sequence, "", {1, 1e6},
-               "Maximum length of a sequence of faces that the heuristic search moves.")
-      .advanced("decides how soon the optimum is proven, and the answer only when a limit stops the solver");
-  list.integer("search_passes", o.search.passes, "", {1, 1e6}, "Maximum number of passes of the heuristic search.")
-      .advanced("decides how soon the optimum is proven, and the answer only when a limit stops the solver");
   return list;
 }
 

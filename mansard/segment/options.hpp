@@ -28,9 +28,10 @@ enum class HeightMeasure : std::uint8_t {
 
 /// Of the heuristics that find a first grouping.
 struct SearchLimits {
-  std::size_t piece = 400;    ///< nodes; sequences between larger pieces cost more than they find
-  std::size_t sequence = 60;  ///< nodes moved one after the other, at most
-  std::size_t passes = 20;    ///< rounds of moving and joining, at most
+  /// nodes; sequences between larger pieces cost more than they find; a limit on the work
+  static constexpr std::size_t piece = 400;
+  static constexpr std::size_t sequence = 60;  ///< nodes moved one after the other, at most; a limit on the work
+  static constexpr std::size_t passes = 20;    ///< rounds of moving and joining, at most; a limit on the work
 };
 
 struct Options {
@@ -67,10 +68,11 @@ struct Options {
   double samples_per_area = 2.0;    ///< height samples per m² of a face
   std::size_t minimum_samples = 9;  ///< height samples per face, at least
   std::size_t minimum_inside_samples =
-      3;                        ///< heights within the footprints, from which they alone tell a face's height
-  double surely_inside = 0.8;   ///< of a face's area in the footprints: over this share it is inside though the mesh
-                                ///< lacks it; from it on it is not peeled off
-  double height_spacing = 0.5;  ///< m between samples along an edge, with height_measure = along
+      3;                       ///< heights within the footprints, from which they alone tell a face's height
+  double surely_inside = 0.8;  ///< of a face's area in the footprints: over this share it is inside though the mesh
+                               ///< lacks it; from it on it is not peeled off
+  /// m between samples along an edge, with height_measure = along; of the grid of places
+  static constexpr double height_spacing = 0.5;
 
   // GIS edges.
   double gis_near = 0.2;           ///< m; as far as the other member's boundary, or a wall, may be off a GIS edge
@@ -84,8 +86,8 @@ struct Options {
   double strip_level = 1.0;    ///< m; lower strips are buildings where heights within this of each other …
   double strip_share = 0.3;    ///< … are at least this share of all: a roof; a blurred wall has no level of its own
   double collinear = 0.01;     ///< m; corners this near to the edge without them are dropped
-  double opening = 0.01;       ///< m; how far a part that touches itself draws back
-  double edge_cover = 1.0 / 3.0;  ///< of an edge, from which a sweep-edge counts as its origin
+  /// m; how far a part that touches itself draws back; a tenth of what surveys resolve
+  static constexpr double opening = 0.01;
 
   SearchLimits search;
 };

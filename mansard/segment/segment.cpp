@@ -22,7 +22,7 @@ auto labels_by_face(const detail::Problem& problem, const detail::Labels& labels
     -> std::vector<std::optional<std::uint32_t>> {
   std::vector<std::optional<std::uint32_t>> label_of_face(problem.node_of_face.size());
   for (std::size_t f = 0; f < label_of_face.size(); ++f)
-    if (problem.node_of_face[f]) label_of_face[f] = labels[*problem.node_of_face[f]];
+    if (const auto& node = problem.node_of_face[f]) label_of_face[f] = labels[*node];
   return label_of_face;
 }
 

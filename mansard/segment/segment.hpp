@@ -65,16 +65,9 @@ struct CycleRow {
   std::vector<std::uint32_t> path;  ///< ascending
 };
 
-/// Where a footprint's edge comes from.
-struct EdgeOrigin {
-  std::vector<std::uint32_t> sweep_edges;  ///< hard parts only, those that face outwards here, by number
-  std::optional<std::uint32_t> neighbour;  ///< the part on the other side, if any
-};
-
 /// One output footprint.
 struct Part {
-  geometry::Polygon polygon;                   ///< simple, no vertex visited twice, collinear points removed
-  std::vector<std::vector<EdgeOrigin>> edges;  ///< per ring (outer, then holes), per edge
+  geometry::Polygon polygon;  ///< simple, no vertex visited twice, collinear points removed
   std::vector<std::uint32_t> faces;
   std::optional<std::size_t> feature;  ///< index into Scene::footprints it overlaps most
   double height = 0;                   ///< z, median of the mesh's top surface, metres

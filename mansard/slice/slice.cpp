@@ -73,9 +73,6 @@ auto option_list(Options& options) -> base::OptionList {
   base::OptionList list("slice");
   list.number("interval", options.interval, "m", {0.01, 10}, "Vertical distance between slices.")
       .source("paper: 0.2 m");
-  list.number("maximum_height", options.maximum_height, "m", {10, 1e6},
-              "Height above ground up to which the mesh is sliced; higher vertices belong to a broken mesh.")
-      .advanced("no building is 10 km high");
   return list;
 }
 

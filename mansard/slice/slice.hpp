@@ -21,8 +21,9 @@ struct SliceStack {
 };
 
 struct Options {
-  double interval = 0.2;            ///< m between slices
-  double maximum_height = 10000.0;  ///< m above ground; higher vertices belong to a broken mesh
+  double interval = 0.2;  ///< m between slices
+  /// m above ground; higher vertices belong to a broken mesh; no building is 10 km high
+  static constexpr double maximum_height = 10000.0;
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

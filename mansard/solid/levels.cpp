@@ -397,7 +397,7 @@ auto option_list(LevelOptions& o) -> base::OptionList {
 }
 
 auto main_roofs(const LabelledSolid& whole, const LevelOptions& options) -> LabelledSolid {
-  const LabelledSolid solid = without_eaves(whole);
+  LabelledSolid solid = without_eaves(whole);
   auto field = detail::roof_field(solid);
   if (!field) return solid;
   const double base = ground_level(solid);

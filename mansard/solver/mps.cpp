@@ -107,15 +107,15 @@ auto flaw_of(const Program& program, const std::vector<std::optional<Side>>& sid
   return {};
 }
 
-void write_rows(const std::vector<std::optional<Side>>& sides, Cards& cards) {
+void write_rows(const std::vector<Side>& sides, Cards& cards) {
   cards.section("ROWS");
   cards.card({"N", "COST"});
   for (std::size_t r = 0; r < sides.size(); ++r)
-    if (sides[r]->kind != 'N') cards.card({std::string_view(&sides[r]->kind, 1), row_name(r)});
+    if (sides[r].kind != 'N') cards.card({std::string_view(&sides[r].kind, 1), row_name(r)});
 }
 
 /// Every variable has its cost written, a zero too: it is what makes the variable known.
-void write_columns(const Program& program, const std::vector<std::optional<Side>>& sides, Cards& cards) {
+void write_columns(const Program& program, const std::vector<Side>& sides, Cards& cards) {
   cards.section("COLUMNS");
   const auto marker = [&](bool whole) { cards.card({"", "MARKER", "'MARKER'", "", whole ? "'INTORG'" : "'INTEND'"}); };
   bool whole = false;
@@ -125,22 +125,22 @@ void write_columns(const Program& program, const std::vector<std::optional<Side>
     const std::string name = variable_name(i);
     cards.card({"", name, "COST", cards.number(program.variables[i].cost, name)});
     for (const Entry& entry : columns[i])
-      if (entry.coefficient != 0 && sides[entry.row]->kind != 'N')
+      if (entry.coefficient != 0 && sides[entry.row].kind != 'N')
         cards.card({"", name, row_name(entry.row), cards.number(entry.coefficient, name)});
   }
   if (whole) marker(false);
 }
 
-void write_sides(double constant, const std::vector<std::optional<Side>>& sides, Cards& cards) {
+void write_sides(double constant, const std::vector<Side>& sides, Cards& cards) {
   cards.section("RHS");
   // Readers subtract the objective's right-hand side.
   if (constant != 0) cards.card({"", "RHS", "COST", cards.number(-constant, "the constant")});
   for (std::size_t r = 0; r < sides.size(); ++r)
-    if (sides[r]->right != 0) cards.card({"", "RHS", row_name(r), cards.number(sides[r]->right, row_name(r))});
-  if (std::ranges::none_of(sides, [](const auto& side) { return side->range.has_value(); })) return;
+    if (sides[r].right != 0) cards.card({"", "RHS", row_name(r), cards.number(sides[r].right, row_name(r))});
+  if (std::ranges::none_of(sides, [](const Side& side) { return side.range.has_value(); })) return;
   cards.section("RANGES");
   for (std::size_t r = 0; r < sides.size(); ++r)
-    if (sides[r]->range) cards.card({"", "RNG", row_name(r), cards.number(*sides[r]->range, row_name(r))});
+    if (const auto& range = sides[r].range) cards.card({"", "RNG", row_name(r), cards.number(*range, row_name(r))});
 }
 
 /// Every variable has its upper bound written: readers differ on what whole ones have without. The lower bound comes
@@ -172,9 +172,12 @@ auto title_of(std::string_view name) -> std::string {
 }  // namespace
 
 auto mps(const Program& program, std::string_view name) -> base::Result<std::string> {
-  std::vector<std::optional<Side>> sides;
-  std::ranges::transform(program.rows, std::back_inserter(sides), side_of);
-  if (const std::string flaw = flaw_of(program, sides); !flaw.empty()) return base::error("solver-mps", flaw);
+  std::vector<std::optional<Side>> found;
+  std::ranges::transform(program.rows, std::back_inserter(found), side_of);
+  if (const std::string flaw = flaw_of(program, found); !flaw.empty()) return base::error("solver-mps", flaw);
+  std::vector<Side> sides;  // each row's: flaw_of has seen to it
+  for (const auto& side : found)
+    if (side) sides.push_back(*side);
 
   Cards cards;
   cards.section("NAME          " + title_of(name));

@@ -60,9 +60,6 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("line_minimum_length", o.line_minimum_length, "m", {0, 50}, "Minimum length of a line in a slice.")
       .advanced("chosen by hand; not measured");
-  list.number("line_maximum_segment", o.line_maximum_segment, "m", {1, 1e6},
-              "Segments longer than this within one triangle are left out, because they belong to a stray vertex.")
-      .advanced("longer than any wall of the inputs in tools/datasets.toml; not measured");
   list.number("gis_straight_turn", o.gis_straight_turn, "rad", {0, 0.7},
               "Consecutive edges of a footprint that turn by less than this count as one edge when lines are turned to "
               "them.")
@@ -146,9 +143,6 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("gutter_band", o.gutter_band, "m", {0, 20},
               "Height above a roof's lowest sample within which its gutter is measured.")
-      .advanced("chosen by hand; not measured");
-  list.number("height_percentile", o.height_percentile, "", {0, 0.5},
-              "Share of columns that may begin below, or end above, the height range of a sweep-edge.")
       .advanced("chosen by hand; not measured");
   list.number("minimum_length", o.minimum_length, "m", {0, 100}, "Minimum length of a sweep-edge.")
       .advanced("chosen by hand; not measured");
@@ -271,8 +265,6 @@ auto option_list(Options& o) -> base::OptionList {
               "Maximum root mean square distance of the heights beside a jump from their slope; rougher surfaces are "
               "foliage or chimneys.")
       .advanced("chosen by hand; not measured");
-  list.number("step_ground", o.step_ground, "m", {0, 100}, "Height above ground below which there is no roof.")
-      .advanced("segment.min_height; not measured");
   list.number("step_grain_turn", o.step_grain_turn, "rad", {0, 0.5},
               "Maximum angle between footprint edges of one direction.")
       .advanced("chosen by hand; not measured");

@@ -27,11 +27,12 @@ struct Options {
   double line_node_spacing = 0.3;  ///< m; chains may be cut at nodes this far apart
   std::size_t line_trim_nodes =
       6;  ///< a piece of so many node distances leaves out its first and last one: the corner may be in it
-  double line_piece_price = 1.0;      ///< m of chain that lie line_distance off: what another piece must save
-  double line_straightness = 0.6;     ///< chord of a piece over its own length; a piece that winds more is vegetation
-  double line_merge_cosine = 0.9;     ///< within 26° pieces may share a line; their ends decide
-  double line_minimum_length = 0.5;   ///< m; shorter lines are noise
-  double line_maximum_segment = 500;  ///< m across one triangle: it belongs to a stray vertex, not to a wall
+  double line_piece_price = 1.0;     ///< m of chain that lie line_distance off: what another piece must save
+  double line_straightness = 0.6;    ///< chord of a piece over its own length; a piece that winds more is vegetation
+  double line_merge_cosine = 0.9;    ///< within 26° pieces may share a line; their ends decide
+  double line_minimum_length = 0.5;  ///< m; shorter lines are noise
+  /// m across one triangle: it belongs to a stray vertex, not to a wall; no building's wall is as long
+  static constexpr double line_maximum_segment = 500;
 
   // Lines turned to the footprints' edges.
   double gis_straight_turn =
@@ -67,8 +68,9 @@ struct Options {
   std::size_t setback_columns = 10;  ///< columns of a setback, at least
   double gutter_rise = 1.0;          ///< m above the median gutter: the column is the end of a hip, not eaves
   double gutter_band = 0.5;          ///< m above the lowest sample: the gutter
-  double height_percentile =
-      0.1;  ///< of the columns' lower ends, and 1 minus it of their upper ends, are a side's low and high
+  /// of the columns' lower ends, and 1 minus it of their upper ends, are a side's low and high; only told, in the layer
+  /// of the sweep-edges
+  static constexpr double height_percentile = 0.1;
   double minimum_length = 1.0;  ///< m; shorter sweep-edges are left out
 
   // Selection of sides.
@@ -118,7 +120,7 @@ struct Options {
   double step_own_share = 1.0 / 3;  ///< of that mean which the row itself must have
   double step_noise = 0.2;          ///< m; a lower jump is noise
   double step_roughness = 0.2;      ///< m; root mean square off the slope: foliage, chimneys
-  double step_ground = 2.0;         ///< m above ground; lower is no roof
+  double step_ground = 2.0;         ///< m above ground; lower is no roof; no option: segment.min_height
   double step_grain_turn = 0.06;    ///< rad; edges that differ by less, or by that from a right angle, run alike
   double step_grain_edge = 1.0;     ///< m; shorter edges of a footprint tell no direction
   double step_grain_length = 8.0;   ///< m of edge that make a direction

@@ -367,7 +367,7 @@ auto plain(const LabelledSolid& model) -> std::optional<Shell> {
 /// The outline of all grounds at the lowest height, with a flat roof at half of the heights.
 auto prism(std::span<const LabelledSolid* const> models) -> std::optional<Shell> {
   std::vector<geometry::Polygon> polygons;
-  double low = std::numeric_limits<double>::infinity(), high = -low, highest = 0, sum = 0;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const auto* model : models) {
     for (std::size_t f = 0; f < model->solid.faces.size(); ++f) {
       if (model->classes[f] != FaceClass::ground) continue;
@@ -380,8 +380,7 @@ auto prism(std::span<const LabelledSolid* const> models) -> std::optional<Shell>
       }
       polygons.push_back(std::move(polygon));
     }
-    for (const auto& v : model->solid.vertices) highest = std::max(highest, v.z), high = std::max(high, v.z);
-    sum += 1;
+    for (const auto& v : model->solid.vertices) high = std::max(high, v.z);
   }
   if (polygons.empty() || !(high > low)) return std::nullopt;
   const auto united = geometry::unite(polygons);

@@ -39,8 +39,7 @@ auto option_list(Options& options) -> base::OptionList {
   list.number("squareness", o.squareness, "", {0, 1},
               "Maximum agreement of all slopes of a crown on two directions at right angles.")
       .advanced("roof structures have 0.44 and more: docs/decisions/0062");
-  list.number("overhang", o.overhang, "", {0, 1},
-              "Minimum share of the crown of a tree beside the building below which its underside is visible.")
+  list.number("overhang", o.overhang, "", {0, 1}, "Minimum share of a crown below which its underside is visible.")
       .advanced("roof structures have up to 0.05: docs/decisions/0062");
   list.number("beyond", o.beyond, "", {0, 1},
               "Minimum share of a crown outside the footprints for it to be that of a tree beside the building.")
@@ -51,9 +50,6 @@ auto option_list(Options& options) -> base::OptionList {
   list.number("rise_within", o.rise_within, "m", {0, 50},
               "Minimum height from the lowest to the highest sample of a crown within the footprints.")
       .advanced("roof structures that overhang have less: docs/decisions/0062");
-  list.number("overhang_within", o.overhang_within, "", {0, 1},
-              "Minimum share of a crown within the footprints below which its underside is visible.")
-      .advanced("roof structures have up to 0.05: docs/decisions/0062");
   list.number("near_underside", o.near_underside, "m", {0, 50},
               "Maximum distance from a visible underside of what belongs to a crown, over the footprints.")
       .advanced("measured on simulated crowns of odd seeds: docs/decisions/0062");

@@ -250,6 +250,8 @@ TEST_F(Command, refuses_bad_usage) {
 TEST_F(Command, refuses_bad_options) {
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--sweep-gama 5"), 4, "option-unknown",
                  "--sweep-gamma");
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--refine-pieces-aside 0.1"), 4, "option-unknown",
+                 "removed; use 'refine.pieces_slit'");
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--slice-interval -1"), 4, "option-value",
                  "--slice-interval");
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--slice-interval abc"), 4, "option-value");
@@ -264,6 +266,7 @@ TEST_F(Command, refuses_bad_config_files) {
   };
   expect_refusal(with("[sweep\n"), 4, "config", "line 1");
   expect_refusal(with("[sweep]\ngama = 5\n"), 4, "option-unknown", "'sweep.gamma'");
+  expect_refusal(with("[profile]\nstep = 1\n"), 4, "option-unknown", "this option was removed");
   expect_refusal(with("[sweep]\ngamma = \"much\"\n"), 4, "option-value");
   expect_refusal(with("gamma = 5\n"), 4, "config");
   expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--config " + at("none.toml")), 3, "file-missing");

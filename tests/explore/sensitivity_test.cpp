@@ -138,15 +138,15 @@ class SensitivityOfHouses : public testing::Test {
 };
 
 TEST_F(SensitivityOfHouses, finds_what_changes_models_and_what_does_not) {
-  auto asked = request({"slice.maximum_height", "profile.quality"});
+  auto asked = request({"block.ground_reach", "profile.quality"});
   std::vector<Trial> seen;
   asked.on_done = [&](const Trial& trial) { seen.push_back(trial); };
   const auto result = sensitivity(asked);
   ASSERT_TRUE(result.has_value()) << result.error().message;
-  EXPECT_EQ(seen.size(), 5U) << "the usual one, two heights, two qualities";
+  EXPECT_EQ(seen.size(), 5U) << "the usual one, two reaches, two qualities";
   std::map<std::string, bool> none;
   for (const auto& effect : result->effects) none[effect.key + "=" + effect.value] = effect.none;
-  EXPECT_TRUE(none.at("slice.maximum_height=20000"));
+  EXPECT_TRUE(none.at("block.ground_reach=100"));
   EXPECT_FALSE(none.at("profile.quality=simple"));
   EXPECT_EQ(result->effects.front().key, "profile.quality");
 
@@ -160,19 +160,19 @@ TEST_F(SensitivityOfHouses, finds_what_changes_models_and_what_does_not) {
 }
 
 TEST_F(SensitivityOfHouses, are_reported_as_a_page_a_table_and_json) {
-  const auto result = sensitivity(request({"slice.maximum_height"}));
+  const auto result = sensitivity(request({"block.ground_reach"}));
   ASSERT_TRUE(result.has_value());
   const auto files = report(*result);
   const std::map<std::string, std::string> by_name(files.begin(), files.end());
   const test::Xml page(by_name.at("index.html"));
   EXPECT_EQ(page.error, "");
-  EXPECT_THAT(page.words_of_all, HasSubstr("slice.maximum_height"));
+  EXPECT_THAT(page.words_of_all, HasSubstr("block.ground_reach"));
   EXPECT_THAT(page.words_of_all, HasSubstr("no effect"));
   EXPECT_THAT(page.words_of_all, HasSubstr("a & b"));
   const auto json = nlohmann::json::parse(by_name.at("results.json"));
   EXPECT_EQ(json["effects"].size(), 2U);
   EXPECT_EQ(json["effects"][0]["no_effect"], true);
-  EXPECT_THAT(by_name.at("results.csv"), HasSubstr("slice.maximum_height,10000,5000,0,yes,houses,"));
+  EXPECT_THAT(by_name.at("results.csv"), HasSubstr("block.ground_reach,50,25,0,yes,houses,"));
 }
 
 }  // namespace

@@ -214,6 +214,19 @@ TEST(SetOption, names_the_nearest_option_for_a_misspelt_one) {
   EXPECT_THAT(set.error().message, testing::HasSubstr("'sweep.gamma'"));
 }
 
+TEST(SetOption, says_of_an_option_of_earlier_versions_that_it_was_removed) {
+  Options options;
+  auto lists = option_lists(options);
+  const auto gone = set_option(lists, "profile.step", "1"), merged = set_option(lists, "profile.assumed_storey", "4");
+  ASSERT_FALSE(gone);
+  ASSERT_FALSE(merged);
+  EXPECT_EQ(gone.error().code, "option-unknown");
+  EXPECT_THAT(gone.error().message, testing::HasSubstr("was removed"));
+  EXPECT_THAT(merged.error().message, testing::HasSubstr("use 'pipeline.assumed_height'"));
+  for (const auto& list : lists)
+    for (const auto& option : list.options()) EXPECT_EQ(why_removed(list.module() + "." + option.name), "");
+}
+
 TEST(OptionLists, have_a_meaning_for_every_option_and_no_name_twice) {
   Options options;
   std::set<std::string> names;

@@ -137,8 +137,6 @@ inline auto outline(const House& house) -> Polygon {
 inline auto part_of(const Polygon& polygon) -> mansard::segment::Part {
   mansard::segment::Part part;
   part.polygon = polygon;
-  part.edges.emplace_back(polygon.outer.size());
-  for (const auto& hole : polygon.holes) part.edges.emplace_back(hole.size());
   part.feature = 0;
   return part;
 }

@@ -71,7 +71,6 @@ TEST(Choose, reads_continuations_as_told) {
   const Segmentation s = c.run();
   EXPECT_EQ(s.parts.size(), 2U);
   EXPECT_TRUE(s.candidates[0].sweep);
-  EXPECT_THAT(s.parts[0].edges[0], ::testing::Each(::testing::Field(&EdgeOrigin::sweep_edges, ::testing::IsEmpty())));
 }
 
 TEST(Choose, lets_no_part_span_two_features_unless_told_to) {
@@ -95,7 +94,6 @@ TEST(Choose, charges_no_beta_for_edges_between_features) {
   EXPECT_EQ(s.parts.size(), 2U);
   EXPECT_FALSE(s.candidates[0].sweep);
   EXPECT_NEAR(s.objective, 0, 1e-9);
-  EXPECT_THAT(s.parts[0].edges[0], ::testing::Each(::testing::Field(&EdgeOrigin::sweep_edges, ::testing::IsEmpty())));
 }
 
 TEST(Choose, uses_no_fewer_metres_of_sweep_edge_with_a_greater_alpha) {
@@ -294,27 +292,6 @@ TEST(Choose, peels_exposed_faces_but_none_the_footprints_vouch_for) {
   walled.wall({20, 10}, {45, 10}, 2);
   s = choose(walled.arrangement, sweep_edges(3), block, mesh, {});
   EXPECT_TRUE(s->faces[c.map.face.at('B')].inside) << "walls all around";
-}
-
-TEST(Choose, tells_edges_where_they_come_from) {
-  Case c = plain({"AABB", "AABB"}, {{'A', 10}, {'B', 16}}, {"AB"});
-  c.map.wall({10, 0}, {10, 10}, 3);  // B's wall over A: outside is A, in the west
-  c.map.wall({20, 0}, {0, 0}, 5);    // the south front, outside is south
-  const Segmentation s = c.run();
-  ASSERT_EQ(s.parts.size(), 2U);
-  const auto edge = [&](std::uint32_t part, Point2 from) {
-    const auto& ring = s.parts[part].polygon.outer;
-    const auto at = std::ranges::find(ring, from) - ring.begin();
-    return s.parts[part].edges[0].at(static_cast<std::size_t>(at));
-  };
-  const EdgeOrigin of_b = edge(1, {10, 10}), of_a = edge(0, {10, 0});
-  EXPECT_THAT(of_b.sweep_edges, ::testing::ElementsAre(3U));
-  EXPECT_EQ(of_b.neighbour, 0U);
-  EXPECT_THAT(of_a.sweep_edges, ::testing::IsEmpty()) << "it faces into A, not out of it";
-  EXPECT_EQ(of_a.neighbour, 1U);
-  EXPECT_THAT(edge(0, {0, 0}).sweep_edges, ::testing::ElementsAre(5U));
-  EXPECT_THAT(edge(1, {10, 0}).sweep_edges, ::testing::ElementsAre(5U));
-  EXPECT_EQ(edge(0, {0, 0}).neighbour, std::nullopt);
 }
 
 TEST(Choose, makes_holes) {

@@ -113,11 +113,13 @@ void add_rises(const profile::ProfiledFootprint& part, const pipeline::Options& 
 auto rises_of(const report::Reconstruction& result, const model::Scene& scene, const pipeline::Options& options,
               const base::Run& run) -> std::vector<Rise> {
   std::vector<Rise> rises;
+  auto profiling = options.profile;
+  profiling.assumed_height = options.assumed_height;
   for (const auto& block : block::partition(scene, options.block, run)) {
     const auto segmented = std::ranges::find(result.segmented, block.name, &report::SegmentedBlock::name);
     if (segmented == result.segmented.end() || !segmented->segmentation) continue;
     const rays::Scene mesh(block.mesh);
-    for (const auto& part : profile::fit(*segmented->segmentation, block, mesh, options.profile, run))
+    for (const auto& part : profile::fit(*segmented->segmentation, block, mesh, profiling, run))
       add_rises(part, options, run, rises);
   }
   return rises;

@@ -122,7 +122,7 @@ auto wasm_rt_register_func_type(uint32_t params, uint32_t results, ...) -> uint3
   return static_cast<std::uint32_t>(all.size());
 }
 
-void wasm_rt_trap(wasm_rt_trap_t trap) {
+void wasm_rt_trap(wasm_rt_trap_t trap) {  // declared as one that does not return
   switch (trap) {
     case WASM_RT_TRAP_OOB: throw Fault{"access beyond the end of the chunk"};
     case WASM_RT_TRAP_EXHAUSTION: throw Fault{"calls nested too deeply"};

@@ -57,11 +57,13 @@ auto MeshReading::colours_of_clouds(const geometry::Box2& within, const TakePoin
     const auto& cloud = *source.cloud;
     const auto box = source.way ? source.way->back(within) : std::optional(within);
     // As for the surface: of one file the header's box is a hint only.
-    if (box && sources_.size() > 1 && cloud.info().stated_bounds && !cloud.info().stated_bounds->plan().overlaps(*box))
-      continue;
+    const auto& stated = cloud.info().stated_bounds;
+    if (box && sources_.size() > 1 && stated && !stated->plan().overlaps(*box)) continue;
     const auto spare = spare_bits(cloud, run);
     if (!spare) return spare.failure();
-    if (!*spare) continue;
+    const auto& bits = *spare;
+    if (!bits) continue;
+    const int shift = *bits;
     std::vector<std::size_t> wanted;
     for (std::size_t i = 0; i < cloud.pieces(); ++i)
       if (const auto own = cloud.box_of(i); !box || !own || own->plan().overlaps(*box)) wanted.push_back(i);
@@ -82,7 +84,7 @@ auto MeshReading::colours_of_clouds(const geometry::Box2& within, const TakePoin
           if (!is_surface(p) || std::ranges::max(p.colour) == 0) continue;
           auto& point = coloured.emplace_back();
           for (std::size_t c = 0; c < 3; ++c)
-            point.colour[c] = formats::linear_of(static_cast<std::uint8_t>(std::min(p.colour[c] >> **spare, 255)));
+            point.colour[c] = formats::linear_of(static_cast<std::uint8_t>(std::min(p.colour[c] >> shift, 255)));
           point.ground = is_ground(p);
           positions.push_back(p.position);
         }
@@ -91,8 +93,10 @@ auto MeshReading::colours_of_clouds(const geometry::Box2& within, const TakePoin
         some[i] = std::move(coloured);
       });
       for (auto& one : some) {
-        if (!*one) return one->failure();
-        if (auto taken = take(std::move(**one)); !taken) return taken;
+        if (!one) continue;  // each was read
+        auto& read = *one;
+        if (!read) return read.failure();
+        if (auto taken = take(*std::move(read)); !taken) return taken;
       }
       run.report("texture", source.path.string(), static_cast<double>(first) / static_cast<double>(wanted.size()));
     }

@@ -235,8 +235,8 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     }
     const auto& cloud = *source->cloud;
     // Of one file the header's box is a hint; of a folder of tiles it says which to read.
-    if (box && clouds.size() > 1 && cloud.info().stated_bounds && !cloud.info().stated_bounds->plan().overlaps(*box))
-      continue;
+    const auto& said = cloud.info().stated_bounds;
+    if (box && clouds.size() > 1 && said && !said->plan().overlaps(*box)) continue;
     std::vector<std::size_t> wanted;
     for (std::size_t i = 0; i < cloud.pieces(); ++i) {
       const auto own = cloud.box_of(i);

@@ -191,10 +191,11 @@ auto MeshReading::find_places() -> base::Result<void> {
       auto read = formats::georeference_of(folder.empty() ? fs::path(".") : folder);
       if (!read) return read.error();
       found = known.emplace(folder, std::move(*read)).first;
-      if (found->second) metadata_.emplace(found->second->input.path, found->second->input);
+      if (const auto& place = found->second) metadata_.emplace(place->input.path, place->input);
     }
-    if (!found->second) continue;
-    source.crs = found->second->crs;
+    const auto& place = found->second;
+    if (!place) continue;
+    source.crs = place->crs;
     source.by_metadata = true;
   }
   return {};
@@ -289,10 +290,8 @@ void MeshReading::into_cells(formats::MeshPiece& piece) {
 /// A point of the mesh, as its file has it.
 auto MeshReading::place_of(const Source& source) const -> std::optional<Point3> {
   if (source.tileset) return source.tileset->middle();
-  if (source.cloud && source.cloud->info().stated_bounds) {
-    const auto& box = *source.cloud->info().stated_bounds;
-    return 0.5 * (box.least + box.most);
-  }
+  if (source.cloud)
+    if (const auto& box = source.cloud->info().stated_bounds) return 0.5 * (box->least + box->most);
   if (source.kind == Kind::file) return Point3{};  // beside the origin that metadata.xml says
   return std::nullopt;
 }
@@ -310,8 +309,11 @@ auto MeshReading::own_crs() const -> std::string {
 
 auto MeshReading::own_crs_or_zone() const -> std::string {
   auto own = own_crs();
-  for (auto source = sources_.begin(); own.empty() && source != sources_.end(); ++source)
-    if (const auto place = place_of(*source); place && source->crs) own = crs::working_crs_of(*source->crs, *place);
+  for (const auto& source : sources_) {
+    if (!own.empty()) break;
+    const auto place = place_of(source);
+    if (const auto& crs = source.crs; place && crs) own = crs::working_crs_of(*crs, *place);
+  }
   return own;
 }
 

@@ -127,7 +127,7 @@ auto bridged(const Polygon& polygon) -> std::optional<std::vector<Polygon>> {
       }
   auto united = geometry::unite(pieces);
   if (!united || !std::ranges::all_of(*united, is_good)) return std::nullopt;
-  return std::move(*united);
+  return *std::move(united);
 }
 
 /// Shell without holes, each read by the even-odd rule first.
@@ -140,7 +140,7 @@ auto rebuilt(const Polygon& polygon) -> base::Result<std::vector<Polygon>> {
     if (!valid) return valid;
     holes.insert(holes.end(), valid->begin(), valid->end());
   }
-  const auto united = geometry::unite(holes);
+  auto united = geometry::unite(holes);
   if (!united) return united;
   for (const auto& hole : *united) {
     std::vector<Polygon> left;

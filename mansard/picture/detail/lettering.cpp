@@ -161,7 +161,8 @@ auto glyph_of(const Drawing& drawing) -> Glyph {
       const std::string_view pair = stroke.substr(0, stroke.find(' '));
       stroke.remove_prefix(std::min(stroke.size(), pair.size() + 1));
       const auto comma = pair.find(',');
-      points.push_back({*base::to_number(pair.substr(0, comma)), *base::to_number(pair.substr(comma + 1))});
+      const auto x = base::to_number(pair.substr(0, comma)), y = base::to_number(pair.substr(comma + 1));
+      if (x && y) points.push_back({*x, *y});
     }
     glyph.strokes.push_back(curve ? curved(std::move(points)) : std::move(points));
   }

@@ -726,8 +726,9 @@ class Renderer {
   [[nodiscard]] auto supersample(std::size_t from, std::size_t to) -> base::Result<void> {
     constexpr std::size_t grid = 2, samples = grid * grid;
     const auto spot_of = [](std::size_t x, std::size_t y, std::size_t k) {
-      return Spot{static_cast<double>(x) + (static_cast<double>(k % grid) + 0.5) / grid,
-                  static_cast<double>(y) + (static_cast<double>(k / grid) + 0.5) / grid};
+      const std::size_t column = k % grid, row = k / grid;
+      return Spot{static_cast<double>(x) + (static_cast<double>(column) + 0.5) / grid,
+                  static_cast<double>(y) + (static_cast<double>(row) + 0.5) / grid};
     };
     struct Row {
       std::vector<std::size_t> edges;

@@ -44,7 +44,7 @@ void Piece::join(std::span<const Layer> layers) {
                              : layer.colours[layer.colours.size() == layer.mesh.triangles.size() ? t : 0]);
     }
   }
-  scene_.emplace(std::move(mesh));
+  scene_ = std::make_unique<const rays::Scene>(std::move(mesh));
 }
 
 auto Piece::look(std::size_t triangle, Point3 point) const -> Look {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,7 +41,7 @@ class Piece {
   std::vector<Pictured> pictured_;
   std::vector<geometry::Point3> normals_;
   std::vector<Colour> colours_;
-  std::optional<rays::Scene> scene_;
+  std::unique_ptr<const rays::Scene> scene_;
 };
 
 class Scenery {

@@ -53,9 +53,19 @@ void measure(PartResult& part, const rays::Scene& mesh, const Options& options) 
   if (std::isfinite(mse)) part.mse = mse;
 }
 
+/// What no part of the mesh shows is as high as a footprint of which it shows nothing.
+auto profiling_of(const Options& options) -> profile::Options {
+  profile::Options out = options.profile;
+  out.assumed_height = options.assumed_height;
+  return out;
+}
+
 /// A request for simpler profiles is not answered with finer ones by the refinement.
 auto refining_of(const Options& options) -> refine::Options {
   refine::Options out = options.refine;
+  out.forms.cap_percentile = options.profile.cap_ridge;
+  out.forms.cap_clearance = options.profile.cap_clear;
+  out.samples.level_band = options.profile.cap_level;
   if (options.profile.quality == profile::Quality::simple) out.effort = refine::Effort::caps;
   if (options.profile.quality == profile::Quality::moderate)
     for (double* price : {&out.face_price, &out.part_price, &out.value_price}) *price *= out.moderate_factor;
@@ -73,7 +83,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const Shown& shown, 
   const auto& block = shown.block();
   const auto& mesh = shown.mesh();
   base::Watch fitting;
-  const auto fitted = profile::fit(segmentation, block, mesh, options.profile, run);
+  const auto fitted = profile::fit(segmentation, block, mesh, profiling_of(options), run);
   out.report.times.stages.push_back({"profile", fitting.stop()});
 
   base::Watch refining;

@@ -51,7 +51,9 @@ auto segment_block(const block::Block& block, const rays::Scene& mesh, const Opt
 
   const auto stack = stage("slice", tell, report, [&] { return slice::cut(block, options.slice, run); });
   auto sweeps = stage("sweep", tell, report, [&] {
-    return sweep::with_roof_steps(sweep::find_edges(stack, block, options.sweep, run), block, mesh, options.sweep, run);
+    sweep::Options sweeping = options.sweep;
+    sweeping.step_ground = options.segment.min_height;  // what is no building has no roof
+    return sweep::with_roof_steps(sweep::find_edges(stack, block, sweeping, run), block, mesh, sweeping, run);
   });
   auto arrangement = stage("fracture", tell, report, [&] {
     return fracture::arrange(segment::cuts_of(sweeps, block, options.segment), region_of(block), options.fracture, run);

@@ -69,7 +69,7 @@ void pack_ground(const model::HeightGrid& terrain, const geometry::Box2& box, Po
 }
 
 /// The reasons of KeptBlocks::why_made, for what has no mesh.
-auto why_in_words(std::string why) -> std::string { return why == "mesh" ? "terrain" : why; }
+auto why_in_words(const std::string& why) -> std::string { return why == "mesh" ? "terrain" : why; }
 
 }  // namespace
 

@@ -29,7 +29,9 @@ auto caps_from(std::span<const double> heights, std::vector<ProfileTop> tops, bo
   std::vector<double> wanted;
   if (pitched) {
     // First a cap the roofs close under: a ridge cut off flat a little too low would be seen on every house.
-    wanted = {ridge + o.cap_clear, ridge, *top + o.cap_clear, high, median};
+    wanted = {ridge + o.cap_clear, ridge};
+    if (top) wanted.push_back(*top + o.cap_clear);
+    wanted.insert(wanted.end(), {high, median});
   } else {
     wanted = {base::commonest(heights, o.cap_level), median};
     if (top) wanted.push_back(*top);

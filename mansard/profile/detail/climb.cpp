@@ -10,6 +10,7 @@ namespace mansard::profile::detail {
 namespace {
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+constexpr double looked_through_first = 1;  // m; pieces this near
 
 auto squared(SectionPoint a, SectionPoint b) -> double {
   const double u = a.inward - b.inward, h = a.height - b.height;
@@ -66,7 +67,8 @@ auto walk(std::span<const Piece> pieces, const Ends& ends, std::size_t start, do
   while (sign * points.back().height < sign * limit) {
     const SectionPoint end = points.back();
     const auto goes_on = [&](std::size_t i) { return sign * far_end(i).height > sign * end.height; };
-    std::size_t next = ends.nearest(end, options.step, goes_on);
+    // Most are near, and found at once: what is nearest is so within any reach.
+    std::size_t next = ends.nearest(end, std::min(looked_through_first, options.jump), goes_on);
     if (next == none) next = ends.nearest(end, options.jump, goes_on);
     if (next == none) break;
     // A piece that dips behind the point reached (a parapet's back) joins where it comes level with it.

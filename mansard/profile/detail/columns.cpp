@@ -97,7 +97,7 @@ void find_rising(std::vector<SliceColumns>& slices, const Options& o) {
     for (std::size_t c = slice.first; c < slice.last; ++c)
       if (!std::isnan(slice.heights[c]) && !(slice.heights[c] < slice.heights[top])) top = c;
     slice.last = top + 1;
-    const auto rounded = static_cast<std::size_t>(o.corner / o.column_width + 0.5);
+    const auto rounded = static_cast<std::size_t>(std::lround(o.corner / o.column_width));
     if (static_cast<double>(slice.last - slice.first) * o.column_width > 2 * o.rising_shortest) slice.last -= rounded;
     if (static_cast<double>(slice.last - slice.first) * o.column_width < o.rising_shortest)
       slice.first = slice.last = 0;
@@ -187,7 +187,7 @@ auto find_setback(std::span<const SliceColumns> slices, const Options& o) -> std
 
 auto behind(std::span<const SliceColumns> slices, const Setback& setback, const Options& o)
     -> std::vector<SliceColumns> {
-  const auto skip = static_cast<std::size_t>(setback.depth / o.column_width + 0.5);
+  const auto skip = static_cast<std::size_t>(std::lround(setback.depth / o.column_width));
   std::vector<SliceColumns> out(slices.begin(), slices.end());
   for (auto& slice : out) {
     const auto count = std::min(skip, slice.heights.size());

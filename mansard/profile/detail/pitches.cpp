@@ -172,7 +172,7 @@ auto supported(RoofLine line, std::span<const SliceColumns> slices, double toler
 }
 
 auto vertical_profile(double height, const Options& o) -> model::Profile {
-  return {{0, 0}, {0, std::max(o.minimum_gutter, height)}};
+  return {{0, 0}, {0, std::max(o.minimum_height, height)}};
 }
 
 auto profile_from(const RoofLine& line, const Options& o) -> model::Profile {
@@ -197,7 +197,7 @@ auto profile_from(const RoofLine& line, const Options& o) -> model::Profile {
   }
   while (!pitches.empty() && pitches.back().slope == 0) pitches.pop_back();
   // Scans round off the edges of flat roofs too: what gains less than that is no pitch.
-  if (pitches.empty() || line.back().height < 2 * o.minimum_gutter ||
+  if (pitches.empty() || line.back().height < 2 * o.minimum_height ||
       line.back().height - line.front().height < o.pitch_gain)
     return vertical_profile(line.front().height, o);
 

@@ -20,7 +20,10 @@ auto height_at(const Profile& profile, double inward) -> double {
   while (i + 1 < profile.size() && profile[i].inward < inward) ++i;
   const auto& a = profile[i - 1];
   const auto& b = profile[i];
-  if (b.inward == a.inward) return inward <= a.inward ? b.height : sky;
+  if (b.inward == a.inward) {
+    if (inward <= a.inward) return b.height;
+    return sky;
+  }
   return a.height + (inward - a.inward) / (b.inward - a.inward) * (b.height - a.height);
 }
 
@@ -107,7 +110,8 @@ class Search {
 
   [[nodiscard]] auto surface(std::size_t run, std::size_t candidate, std::size_t sample) const -> double {
     const auto& heights = surfaces_[run][candidate];
-    return heights.empty() ? sky : heights[sample];
+    if (heights.empty()) return sky;
+    return heights[sample];
   }
 
   /// With the run's profile exchanged, under the cap that suits best.

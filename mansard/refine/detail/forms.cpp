@@ -90,7 +90,7 @@ auto mansard_line(std::vector<Look> looks, const Options& options) -> std::optio
   std::size_t best = 0;
   double least = sums.back().residual();
   for (std::size_t i = fewest; i + fewest < looks.size(); ++i) {
-    if (looks[i].inward < mansard.min_split) continue;
+    if (looks[i].inward < mansard.min_depth / 2) continue;
     if (looks[i].inward > mansard.max_depth) break;
     const double left = sums[i].residual() + (sums.back() - sums[i]).residual();
     if (left < least) {
@@ -134,7 +134,7 @@ auto setback(std::vector<Look> looks, const Options& options) -> std::vector<Pro
   std::size_t best = 0;
   double least = o.max_rest * sums.back().residual();
   for (std::size_t i = fewest; i + fewest < looks.size(); ++i) {
-    if (looks[i].inward < o.min_depth) continue;
+    if (looks[i].inward < options.mansard.min_depth) continue;
     if (looks[i].inward > o.max_depth) break;
     const double left = sums[i].residual_level() + (sums.back() - sums[i]).residual();
     if (left < least) {

@@ -84,7 +84,9 @@ auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
   if (auto judged = again(plan, any)) return std::move(*judged);
   auto sketch = extrude::sketch(plan, raising_, run_);
   if (!sketch) return sketch.error();
-  return std::move(*of(plan, std::move(*sketch), any));
+  auto judged = of(plan, std::move(*sketch), any);
+  if (!judged) return base::error("extrude-no-area", "the roof cannot be compared with the mesh");
+  return *std::move(judged);
 }
 
 auto Judge::cheaper(const model::Plan& plan, double than) const -> std::optional<Judged> {

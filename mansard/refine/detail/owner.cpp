@@ -173,7 +173,9 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
   for (std::size_t k = 0; k < mine.size(); ++k) {
     const std::size_t i = mine[k];
     const auto& plan = drafts[i].plan;
-    auto& piece = *roofed[k];
+    auto& made = roofed[k];
+    if (!made) continue;  // each was made
+    auto& piece = *made;
     if (piece) {
       pieces.push_back(std::move(*piece));
     } else if (auto raised = work.raised(plan)) {  // down the ladder, and no further

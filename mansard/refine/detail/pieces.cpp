@@ -41,7 +41,7 @@ auto profile_under(std::span<const Origin> origins, Point2 a, Point2 b, const Op
   for (std::size_t o = 0; o < origins.size(); ++o) {
     const auto add = [&](const PlanRing& ring) {
       for (std::size_t i = 0; i < ring.points.size(); ++i) {
-        const double common = overlap(a, b, ring.points[i], ring.points[(i + 1) % ring.points.size()], options.aside);
+        const double common = overlap(a, b, ring.points[i], ring.points[(i + 1) % ring.points.size()], options.slit);
         if (common > 0) lengths[{o, ring.profile_of_edge[i]}] += common;
       }
     };

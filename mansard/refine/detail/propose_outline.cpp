@@ -160,7 +160,7 @@ auto free_rows(const Raster& raster, double at, int way, std::size_t self, const
                const Options& options) -> std::vector<int> {
   const double melted = options.samples.melt;
   const Rectangle& own = all[self];
-  const double trim = own.most.y - own.least.y > options.outlines.trim_length ? melted : 0;
+  const double trim = own.most.y - own.least.y > 4 * melted ? melted : 0;
   std::vector<int> out;
   for (int row = row_of(raster, own.least.y + trim); row < row_of(raster, own.most.y - trim); ++row) {
     const double x = at + way * melted, y = raster.y(row);
@@ -217,10 +217,11 @@ struct Place {
 };
 
 /// Columns around a place in which enough of the rows were seen.
-auto profile_near(const Raster& raster, double at, const std::vector<int>& rows, const Options::Outlines& options)
+auto profile_near(const Raster& raster, double at, const std::vector<int>& rows, const Options& all)
     -> std::vector<Place> {
+  const auto& options = all.outlines;
   const int centre = static_cast<int>(std::lround((at - raster.least.x) / raster.spacing));
-  const int span = static_cast<int>(std::ceil((options.reach + options.max_move) / raster.spacing));
+  const int span = static_cast<int>(std::ceil((reach_beside(all) + options.max_move) / raster.spacing));
   std::vector<Place> out;
   for (int i = std::max(0, centre - span); i < std::min(raster.columns, centre + span + 1); ++i) {
     double sum = 0, count = 0;
@@ -242,19 +243,19 @@ auto level_beside(const std::vector<Place>& profile, double wall, int way, const
   geometry::LineSums sums;
   for (const Place& place : profile) {
     const double d = way * (place.x - wall);
-    if (d < options.samples.melt || d > options.outlines.reach) continue;
+    if (d < options.samples.melt || d > reach_beside(options)) continue;
     sums.add(d, place.level);
   }
   if (sums.weight < 2) return std::nullopt;
   const double slope = sums.weight > 2 ? sums.joint() / sums.spread() : 0;
-  return std::abs(slope) > options.outlines.max_slope ? sums.z / sums.weight : sums.line(slope).at_zero;
+  return std::abs(slope) > options.surfaces.max_slope ? sums.z / sums.weight : sums.line(slope).at_zero;
 }
 
 }  // namespace
 
 auto step_near(const Raster& raster, double at, const std::vector<int>& rows, const Options& options) -> double {
   const auto& o = options.outlines;
-  const std::vector<Place> profile = profile_near(raster, at, rows, o);
+  const std::vector<Place> profile = profile_near(raster, at, rows, options);
   const double start = at;
   for (std::int64_t round = 0; round < o.step_rounds; ++round) {
     const auto low = level_beside(profile, at, -1, options), high = level_beside(profile, at, 1, options);

@@ -21,6 +21,9 @@ struct Rectangle {
 
 /// Where along x the heights step near `at`, over some rows; `at` itself where they do not. Metres in the
 /// raster's frame.
+/// m; the roofs on both sides of a wall are read up to this distance from it.
+[[nodiscard]] inline auto reach_beside(const Options& options) -> double { return 3 * options.samples.melt; }
+
 [[nodiscard]] auto step_near(const Raster& raster, double at, const std::vector<int>& rows, const Options& options)
     -> double;
 

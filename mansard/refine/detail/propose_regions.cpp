@@ -211,7 +211,7 @@ auto shrunk(const Raster& raster, const Mask& mask, double by) -> Mask {
 auto grown(const Raster& raster, const Mask& mask, double by) -> Mask {
   Mask off(mask.size());
   for (std::size_t k = 0; k < off.size(); ++k) off[k] = mask[k] ? 0 : 1;
-  off = shrunk_cells(raster, std::move(off), static_cast<int>(std::lround(by / raster.spacing)), false);
+  off = shrunk_cells(raster, off, static_cast<int>(std::lround(by / raster.spacing)), false);
   for (auto& o : off) o = o ? 0 : 1;
   return off;
 }

@@ -69,7 +69,8 @@ class RowSums {
 
   /// Mean height `near` to `far` metres from a line before the column, going `way`; NaN where unseen.
   [[nodiscard]] auto beside(int row, int column, int way, double near, double far) const -> double {
-    const int a = static_cast<int>(near / raster_.spacing + 0.5), b = static_cast<int>(far / raster_.spacing + 0.5);
+    const int a = static_cast<int>(std::lround(near / raster_.spacing)),
+              b = static_cast<int>(std::lround(far / raster_.spacing));
     const int first = std::clamp(way > 0 ? column + a : column - b, 0, raster_.columns);
     const int last = std::clamp(way > 0 ? column + b : column - a, 0, raster_.columns);
     const std::size_t base = stride_ * static_cast<std::size_t>(row);
@@ -93,7 +94,7 @@ struct Crossing {
 auto crossing_at(const RowSums& sums, const std::vector<int>& rows, int column, const Options& options) -> Crossing {
   const auto& o = options.splits;
   const double least_step = o.step_share * options.cuts.min_step;
-  const double near = options.samples.melt, far = options.outlines.reach;
+  const double near = options.samples.melt, far = reach_beside(options);
   double known = 0, steps = 0, valleys = 0;
   for (const int row : rows) {
     const double left = sums.beside(row, column, -1, near, far), right = sums.beside(row, column, 1, near, far);

@@ -140,8 +140,9 @@ auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks
     -> std::optional<Profile> {
   std::vector<std::optional<RoofLine>> lines;
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
-    lines.push_back(line_of(profile, i));
-    if (lines.back()) lines.back() = refitted_line(*lines.back(), looks[i], options);
+    auto line = line_of(profile, i);
+    if (line) line = refitted_line(*line, looks[i], options);
+    lines.push_back(line);
   }
   return chained(profile, lines, options);
 }
@@ -157,8 +158,9 @@ auto chained(const Profile& profile, std::span<const std::optional<RoofLine>> li
   };
   double last_inward = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!lines[i]) continue;
-    const RoofLine& line = *lines[i];
+    const auto& own = lines[i];
+    if (!own) continue;
+    const RoofLine& line = *own;
     if (i == 0) {  // a roof from the ground up: its foot stays
       if (line.at_edge > 0) add(0, line.at_edge);
     } else if (!lines[i - 1]) {  // behind a wall

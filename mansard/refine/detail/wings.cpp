@@ -48,7 +48,7 @@ auto side_of(const Polygon& part, Point2 on, Point2 along, const std::vector<Seg
   const double far = 2 * geometry::length(box.most - box.least) + geometry::length(on - box.least);
   const Point2 a = on - far * along, b = on + far * along, up = far * geometry::left_of(along);
   const auto [whole, half] = fitted(part, Polygon{{a, b, b + up, a + up}, {}}, options);
-  const auto pieces = geometry::intersect(whole, half);
+  auto pieces = geometry::intersect(whole, half);
   std::vector<Polygon> out;
   if (!pieces) return out;
   for (auto& piece : tidied(std::move(*pieces), options))

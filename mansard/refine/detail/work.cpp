@@ -189,7 +189,7 @@ auto Work::misfit_near(const Piece& piece, const geometry::Polygon& other) const
   double sum = 0;
   for (const auto cell : site.cells) {
     const double d = std::abs(piece.roof.view.z[cell] - site.measured.z[cell]);
-    if (!(d > options_.joins.recut_step)) continue;
+    if (!(d > options_.cuts.min_step)) continue;
     const auto at = site.measured.centre(cell);
     if (geometry::boundary_distance(other, at) < options_.joins.recut_reach) sum += d * std::min(d, options_.robust);
   }
@@ -279,7 +279,7 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
     if (const auto plain = Judge(all, options_, raising_, run_)(*plan)) try_beside_dormers_of(*plain, false);
   try_beside_dormers_of(piece.roof, true);
   constexpr int rounds = 3;  // a better roof shows more of them
-  for (int round = 0; round < rounds && std::exchange(better, false); ++round) {
+  for (int round = 0; round < rounds && best && std::exchange(better, false); ++round) {
     const Judged roof = best->roof;
     if (const auto plan = straightened(roof, best->without))
       if (const auto plain = Judge(best->without, options_, raising_, run_)(*plan))

@@ -193,8 +193,8 @@ class ConflictSearch {
         if (!reach.overlaps(boxes[order[l]])) continue;
         const Run &one = runs_[order[k]], &other = runs_[order[l]];
         if (!make_a_sliver(one, other)) continue;
-        if (options_.thin_rule == ThinRule::any || leads_to(one, *sliver_at(one, other, options_), order[l]))
-          note(one, other);
+        const auto at = options_.thin_rule == ThinRule::any ? std::nullopt : sliver_at(one, other, options_);
+        if (!at || leads_to(one, *at, order[l])) note(one, other);
       }
     }
   }

@@ -173,7 +173,7 @@ auto greedy(const Multicut& problem) -> Labels {
   return search.labels();
 }
 
-auto improved(const Multicut& problem, Labels labels, const SearchLimits& limits) -> Labels {
+auto improved(const Multicut& problem, const Labels& labels, const SearchLimits& limits) -> Labels {
   // Pieces, not labels, are what is joined and moved: one label on unconnected pieces would tie them together.
   Search search(problem, canonical(problem, labels), limits);
   for (std::size_t pass = 0; pass < limits.passes; ++pass) {
@@ -184,7 +184,7 @@ auto improved(const Multicut& problem, Labels labels, const SearchLimits& limits
   return canonical(problem, search.labels());
 }
 
-auto joined_where_free(const Multicut& problem, Labels labels) -> Labels {
+auto joined_where_free(const Multicut& problem, const Labels& labels) -> Labels {
   Search search(problem, canonical(problem, labels));
   search.join(true);
   return canonical(problem, search.labels());

@@ -11,9 +11,9 @@ namespace mansard::segment::detail {
 [[nodiscard]] auto greedy(const Multicut& problem) -> Labels;
 
 /// Never worse than what it is given, which must keep forced edges cut.
-[[nodiscard]] auto improved(const Multicut& problem, Labels labels, const SearchLimits& limits = {}) -> Labels;
+[[nodiscard]] auto improved(const Multicut& problem, const Labels& labels, const SearchLimits& limits = {}) -> Labels;
 
 /// Joins neighbouring pieces for as long as that costs nothing, lowest edge first.
-[[nodiscard]] auto joined_where_free(const Multicut& problem, Labels labels) -> Labels;
+[[nodiscard]] auto joined_where_free(const Multicut& problem, const Labels& labels) -> Labels;
 
 }  // namespace mansard::segment::detail

@@ -68,17 +68,14 @@ auto split(const Multicut& whole, std::int64_t& constant) -> std::vector<Subprob
   }
   for (const MulticutPair& pair : whole.pairs) {
     const std::uint32_t i = inner_edge[pair.first], j = inner_edge[pair.second];
-    if (i == none && j == none) {
+    const MulticutEdge &one = whole.edges[pair.first], &other = whole.edges[pair.second];
+    const bool inside = i != none && j != none;
+    if (inside && part_of[one.a] == part_of[other.a]) {
+      parts[part_of[one.a]].problem.pairs.push_back({i, j, pair.penalty});
+    } else if (inside ? one.forced && other.forced : i == none && j == none) {
       constant += pair.penalty;
-    } else if (i == none || j == none) {
-      const std::uint32_t inside = i == none ? pair.second : pair.first;
-      parts[part_of[whole.edges[inside].a]].problem.edges[inner_edge[inside]].cost += pair.penalty;
-    } else if (part_of[whole.edges[pair.first].a] == part_of[whole.edges[pair.second].a]) {
-      parts[part_of[whole.edges[pair.first].a]].problem.pairs.push_back({i, j, pair.penalty});
-    } else if (whole.edges[pair.first].forced && whole.edges[pair.second].forced) {
-      constant += pair.penalty;
-    } else {
-      const std::uint32_t free = whole.edges[pair.first].forced ? pair.second : pair.first;
+    } else {  // one of them is cut in any case
+      const std::uint32_t free = (inside ? one.forced : i == none) ? pair.second : pair.first;
       parts[part_of[whole.edges[free].a]].problem.edges[inner_edge[free]].cost += pair.penalty;
     }
   }

@@ -19,7 +19,7 @@ using LabelOfFace = std::vector<std::optional<std::uint32_t>>;
 auto faces_by_label(const LabelOfFace& label_of_face) -> std::map<std::uint32_t, std::vector<std::uint32_t>> {
   std::map<std::uint32_t, std::vector<std::uint32_t>> faces;
   for (std::uint32_t f = 0; f < label_of_face.size(); ++f)
-    if (label_of_face[f]) faces[*label_of_face[f]].push_back(f);
+    if (const auto& label = label_of_face[f]) faces[*label].push_back(f);
   return faces;
 }
 
@@ -45,14 +45,17 @@ auto best_neighbour(const fracture::Arrangement& arrangement, const std::vector<
                     const LabelOfFace& label_of_face,
                     const std::map<std::uint32_t, std::optional<std::size_t>>& feature_of_label)
     -> std::optional<std::uint32_t> {
-  const std::uint32_t label = *label_of_face[faces.front()];
+  const auto& own = label_of_face[faces.front()];
+  if (!own) return std::nullopt;
+  const std::uint32_t label = *own;
   std::map<std::uint32_t, double> common;
   for (const std::uint32_t f : faces)
     for (const std::uint32_t h : half_edges_around(arrangement, f)) {
       const auto other = face_across(arrangement, h);
-      if (other && label_of_face[*other] && *label_of_face[*other] != label &&
-          feature_of_label.at(*label_of_face[*other]) == feature_of_label.at(label))
-        common[*label_of_face[*other]] += length_of(arrangement, h);
+      if (!other) continue;
+      const auto& beyond = label_of_face[*other];
+      if (beyond && *beyond != label && feature_of_label.at(*beyond) == feature_of_label.at(label))
+        common[*beyond] += length_of(arrangement, h);
     }
   std::optional<std::uint32_t> best;
   for (const auto& [l, length] : common)
@@ -208,49 +211,13 @@ void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidenc
   }
 }
 
-auto origin_of(const fracture::Arrangement& arrangement, const std::vector<std::uint32_t>& half_edges,
-               const LabelOfFace& part_of_face, const Options& o) -> EdgeOrigin {
-  double total = 0;
-  std::map<std::uint32_t, double> under, beside;
-  for (const std::uint32_t h : half_edges) {
-    const fracture::HalfEdge& edge = arrangement.half_edges[h];
-    const double length = length_of(arrangement, h);
-    total += length;
-    std::set<std::uint32_t> sources;
-    // The part is on the left; a sweep-edge that faces outwards here runs the other way, its outside on its left.
-    for (const fracture::Origin& cause : edge.origins)
-      if (cause.kind == fracture::Kind::hard && cause.source < gis_source && !cause.along) sources.insert(cause.source);
-    for (const std::uint32_t s : sources) under[s] += length;
-    if (const auto other = arrangement.half_edges[edge.twin].face; other && part_of_face[*other])
-      beside[*part_of_face[*other]] += length;
-  }
-  EdgeOrigin origin;
-  for (const auto& [source, length] : under)
-    if (length >= o.edge_cover * total) origin.sweep_edges.push_back(source);
-  for (const auto& [part, length] : beside)
-    if (length > total / 2) origin.neighbour = part;
-  return origin;
-}
-
 auto is_simple(const std::vector<CornerRing>& rings) -> bool {
   return std::ranges::all_of(rings, [](const CornerRing& ring) { return ring.size() >= 3; }) &&
          geometry::is_simple(polygon_of(rings));
 }
 
-auto origins_of(const fracture::Arrangement& arrangement, const std::vector<CornerRing>& rings,
-                const LabelOfFace& part_of_face, const Options& o) -> std::vector<std::vector<EdgeOrigin>> {
-  std::vector<std::vector<EdgeOrigin>> origins;
-  for (const CornerRing& ring : rings) {
-    origins.emplace_back();
-    for (const Corner& c : ring) origins.back().push_back(origin_of(arrangement, c.half_edges, part_of_face, o));
-  }
-  return origins;
-}
-
-/// For outlines that opening does not make simple: shrunk, the largest piece, every edge with the origin of the
-/// nearest traced one.
-auto repaired(const fracture::Arrangement& arrangement, const std::vector<CornerRing>& rings,
-              const LabelOfFace& part_of_face, const Options& o, Part& part) -> bool {
+/// For outlines that opening does not make simple: shrunk, the largest piece.
+auto repaired(const std::vector<CornerRing>& rings, const Options& o, Part& part) -> bool {
   auto valid = geometry::make_valid(polygon_of(rings));
   if (!valid) return false;
   std::optional<geometry::Polygon> best;
@@ -262,29 +229,10 @@ auto repaired(const fracture::Arrangement& arrangement, const std::vector<Corner
   }
   if (!best || geometry::area(*best) < o.smallest_part) return false;
   part.polygon = *best;
-  const auto nearest = [&](geometry::Point2 a, geometry::Point2 b) {
-    const geometry::Point2 middle = 0.5 * (a + b), along = geometry::normalised(b - a);
-    std::tuple<double, std::size_t, std::size_t> found{1e300, 0, 0};
-    for (std::size_t r = 0; r < rings.size(); ++r)
-      for (std::size_t i = 0; i < rings[r].size(); ++i) {
-        const geometry::Segment2 s{rings[r][i].at, rings[r][(i + 1) % rings[r].size()].at};
-        const double turned = 1 - geometry::dot(along, geometry::normalised(s.end - s.start));
-        found = std::min(found, {geometry::distance(s, middle) + turned, r, i});
-      }
-    return origin_of(arrangement, rings[std::get<1>(found)][std::get<2>(found)].half_edges, part_of_face, o);
-  };
-  part.edges.clear();
-  const auto add = [&](const geometry::Ring& ring) {
-    part.edges.emplace_back();
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      part.edges.back().push_back(nearest(ring[i], ring[(i + 1) % ring.size()]));
-  };
-  add(part.polygon.outer);
-  for (const auto& hole : part.polygon.holes) add(hole);
   return true;
 }
 
-/// Polygon and edges of a part; false where no simple polygon of 1 m² could be made of it.
+/// Polygon of a part; false where no simple polygon of 1 m² could be made of it.
 auto draw(const fracture::Arrangement& arrangement, const LabelOfFace& part_of_face, std::uint32_t number,
           const Options& o, Part& part, std::vector<base::Diagnostic>& warnings) -> bool {
   const std::vector<CornerRing> traced = trace(arrangement, part.faces, part_of_face);
@@ -292,11 +240,10 @@ auto draw(const fracture::Arrangement& arrangement, const LabelOfFace& part_of_f
     const std::vector<CornerRing> rings = opened(straightened(traced, tolerance), o.opening);
     if (!is_simple(rings)) continue;
     part.polygon = polygon_of(rings);
-    part.edges = origins_of(arrangement, rings, part_of_face, o);
     return true;
   }
   const std::string subject = "part " + std::to_string(number);
-  if (repaired(arrangement, traced, part_of_face, o, part)) {
+  if (repaired(traced, o, part)) {
     warnings.push_back(base::warning("segment-part-repaired", "its outline crossed itself and was redrawn", subject));
     return true;
   }

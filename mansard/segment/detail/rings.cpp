@@ -53,7 +53,7 @@ auto trace(const fracture::Arrangement& arrangement, const std::vector<std::uint
     do {
       done[index(h)] = true;
       const std::uint32_t v = half_edges[h].from;
-      ring.push_back({arrangement.vertices[v], v, {h}});
+      ring.push_back({arrangement.vertices[v], v});
       // Around the vertex through the part's faces: stays in one wedge of the part.
       h = half_edges[h].next;
       while (!is_boundary(h)) h = half_edges[half_edges[h].twin].next;
@@ -92,8 +92,6 @@ auto straightened(std::vector<CornerRing> rings, double tolerance) -> std::vecto
       }
       if (!least) break;
       const std::size_t i = std::get<2>(*least), before = (i + ring.size() - 1) % ring.size();
-      auto& run = ring[before].half_edges;
-      run.insert(run.end(), ring[i].half_edges.begin(), ring[i].half_edges.end());
       dropped[before].push_back(ring[i].at);
       dropped[before].insert(dropped[before].end(), dropped[i].begin(), dropped[i].end());
       ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));

@@ -10,11 +10,10 @@
 
 namespace mansard::segment::detail {
 
-/// A corner of a ring and the half-edges from it to the next corner, the part on their left.
+/// A corner of a ring, with the part on the left.
 struct Corner {
   geometry::Point2 at;
   std::uint32_t vertex = 0;
-  std::vector<std::uint32_t> half_edges;
 };
 using CornerRing = std::vector<Corner>;
 

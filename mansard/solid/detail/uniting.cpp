@@ -184,7 +184,7 @@ class Uniting {
       else if (!conform(*plan_)) why_ = "edges cross again and again";
       else if (reach_.corners) cut_corners(*plan_, std::vector<std::uint32_t>(parts_.size(), 0));
     }
-    if (why_.empty()) return made_of(sheets_of(which, pinned), parts_);
+    if (plan_ && why_.empty()) return made_of(sheets_of(*plan_, which, pinned), parts_);
     if (which.size() == parts_.size()) return {{}, why_};
     std::vector<const LabelledSolid*> parts;
     for (const std::size_t p : which) parts.push_back(parts_[p]);
@@ -197,8 +197,8 @@ class Uniting {
   }
 
   /// Those of some parts; what they share with others pinned.
-  [[nodiscard]] auto sheets_of(const Parts& which, bool pinned) const -> Sheets {
-    Sheets own = *plan_;
+  [[nodiscard]] static auto sheets_of(const Sheets& plan, const Parts& which, bool pinned) -> Sheets {
+    Sheets own = plan;
     const auto is_own = [&](const Sheet& sheet) { return std::ranges::binary_search(which, sheet.solid); };
     own.pinned.resize(own.places.size(), 0);
     for (const auto& sheet : own.sheets)

@@ -66,6 +66,9 @@ struct Column {
   std::size_t lines = 0;
   std::optional<double> foot;  // depth, m, positive outward
   double low = 0, high = 0;    // of the wall part, else of all samples
+
+  /// Of a column that is used: it has one.
+  [[nodiscard]] auto depth() const -> double { return foot.value_or(0); }
 };
 
 auto make_columns(const std::vector<WeighedLine>& lines, const slice::SliceStack& stack, const Frame& frame,
@@ -207,7 +210,7 @@ auto part_by_setback(const std::vector<Column>& columns, const Group& used, doub
   for (const double side : {1.0, -1.0}) {
     Group off;
     for (const auto k : used)
-      if (side * (*columns[k].foot - middle) >= o.setback) off.push_back(k);
+      if (side * (columns[k].depth() - middle) >= o.setback) off.push_back(k);
     for (auto& part : split_at_gaps(off, o.setback_gap, o)) {
       if (part.size() < o.setback_columns) continue;
       for (const auto k : part) aside[k] = 1;
@@ -260,7 +263,7 @@ auto find_bases(const std::vector<WeighedLine>& lines, const slice::SliceStack& 
   for (const auto k : used) numbers.push_back(static_cast<double>(columns[k].lines));
   const double needed = o.column_support * base::mean_median(numbers);
   std::erase_if(used, [&](std::size_t k) { return static_cast<double>(columns[k].lines) < needed; });
-  for (const auto k : used) feet.push_back(*columns[k].foot);
+  for (const auto k : used) feet.push_back(columns[k].depth());
 
   std::vector<Base> bases;
   for (const auto& group : part_by_setback(columns, used, base::mean_median(feet), o)) {
@@ -271,7 +274,7 @@ auto find_bases(const std::vector<WeighedLine>& lines, const slice::SliceStack& 
       std::vector<double> depths, lows, highs;
       double area = 0;
       for (const auto k : part) {
-        depths.push_back(*columns[k].foot);
+        depths.push_back(columns[k].depth());
         lows.push_back(columns[k].low);
         highs.push_back(columns[k].high);
         area += static_cast<double>(columns[k].lines) * o.column_width * stack.interval;

@@ -107,7 +107,7 @@ void Triangulation::flip(std::uint32_t t, int side) {
 
 /// C. L. Lawson, Software for C1 surface interpolation, 1977: flips until no edge is illegal. `open` are edges by a
 /// triangle and the corner opposite.
-void Triangulation::legalise(std::vector<std::pair<std::uint32_t, int>> open, const Touch& touch) {
+void Triangulation::legalise(const std::vector<std::pair<std::uint32_t, int>>& open, const Touch& touch) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  // by their ends
   for (const auto& [t, side] : open)
     edges.emplace_back(triangles_[t].corner[next(side)], triangles_[t].corner[before(side)]);
@@ -184,7 +184,7 @@ void Triangulation::split_edge(std::uint32_t t, int side, std::uint32_t v, const
     at_[s] = u;
     open.insert(open.end(), {{u, 2}, {u2, 1}});
   }
-  legalise(std::move(open), touch);
+  legalise(open, touch);
 }
 
 auto Triangulation::insert(Site p, const Touch& touch) -> std::uint32_t {
@@ -337,7 +337,7 @@ auto Triangulation::fix(std::uint32_t a, std::uint32_t b) -> bool {
     std::vector<std::pair<std::uint32_t, int>> open;
     for (const auto& [p, s] : made)
       if (const auto edge = left_of(p, s)) open.push_back(*edge);
-    legalise(std::move(open), {});
+    legalise(open, {});
     a = end;
   }
   return true;

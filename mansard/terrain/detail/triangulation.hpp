@@ -66,7 +66,7 @@ class Triangulation {
  private:
   void link(std::uint32_t t, int side, std::uint32_t other, std::uint32_t instead_of);
   void flip(std::uint32_t t, int side);
-  void legalise(std::vector<std::pair<std::uint32_t, int>> open, const Touch& touch);
+  void legalise(const std::vector<std::pair<std::uint32_t, int>>& open, const Touch& touch);
   auto split_triangle(std::uint32_t t, std::uint32_t v, const Touch& touch) -> void;
   auto split_edge(std::uint32_t t, int side, std::uint32_t v, const Touch& touch) -> void;
   [[nodiscard]] auto in_circle(std::uint32_t t, std::uint32_t v) const -> bool;

@@ -127,7 +127,7 @@ auto mixed(const ScanTriangle& t, const std::array<double, 3>& weight, const mod
   for (std::size_t k = 0; k < 3; ++k) {
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) sum += weight[c] * t.colour[c][k];
-    own[k] = static_cast<std::uint16_t>(sum + 0.5);
+    own[k] = static_cast<std::uint16_t>(std::lround(sum));
   }
   if (pixels == nullptr) return own;
   double u = 0, v = 0;
@@ -180,8 +180,8 @@ void sum_up(const Band& band, const std::vector<Flat>& flats, const FaceGrid& gr
     for (; i < wanted.size() && wanted[i].first == material; ++i) {
       if (material != no_material && !pixels) continue;
       const std::size_t sample = wanted[i].second;
-      const Point2 p{static_cast<double>(sample % band.width) + 0.5,
-                     static_cast<double>(band.first + sample / band.width) + 0.5};
+      const std::size_t column = sample % band.width, row = band.first + sample / band.width;
+      const Point2 p{static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5};
       const Flat& flat = flats[band.shown[sample]];
       const Light light = mixed(*flat.source, weights_at(flat, p), pixels.get(), wrap);
       Sum& sum = sums[texel_of(sample)];
@@ -230,15 +230,15 @@ auto project(const FaceGrid& grid, std::span<const NearTriangle* const> triangle
       if (sum.inside == 0) continue;
       const std::size_t row = grid.rows - 1 - (first + i / grid.columns), at = row * grid.columns + i % grid.columns;
       const bool shown = sum.shown > 0 && 2 * sum.shown >= sum.inside;
-      const std::size_t from_below = first * grid.columns + i;
-      const bool pointed = !shown && !of_points.empty() && of_points[from_below];
-      out.state[at] = shown || pointed ? seen : unknown;
+      std::optional<Light> pointed;
+      if (!shown && !of_points.empty()) pointed = of_points[first * grid.columns + i];
+      out.state[at] = shown || pointed.has_value() ? seen : unknown;
       out.inside += sum.inside;
       if (!shown && !pointed) continue;
       out.known += sum.inside;
       for (std::size_t c = 0; c < 3; ++c) {
-        out.light[at][c] = pointed ? (*of_points[from_below])[c]
-                                   : static_cast<std::uint16_t>((sum.light[c] + sum.shown / 2) / sum.shown);
+        out.light[at][c] =
+            pointed ? (*pointed)[c] : static_cast<std::uint16_t>((sum.light[c] + sum.shown / 2) / sum.shown);
         out.sum[c] += std::uint64_t{out.light[at][c]} * sum.inside;
       }
     }

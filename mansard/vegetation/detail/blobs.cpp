@@ -237,7 +237,7 @@ auto is_built(const Crown& seen, const Dome& dome) -> bool {
 auto hangs_over(const Crown& seen, const Options& options) -> bool {
   const bool beside = seen.area - seen.inside >= options.beyond * seen.area;
   return beside ? seen.overhang >= options.overhang && seen.rise >= options.rise_beside
-                : seen.overhang >= options.overhang_within && seen.rise >= options.rise_within;
+                : seen.overhang >= options.overhang && seen.rise >= options.rise_within;
 }
 
 /// The shape of a crown, whatever is below it. Each limit is between what crowns and roofs were measured to have, on
