@@ -83,8 +83,7 @@ auto sample_inputs(const fs::path& folder) -> base::Result<InputsRequest> {
   if (request.meshes.empty() || request.footprints.empty())
     return base::error(
         "server-sample",
-        "no sample is available; start 'mansard serve' with --sample DIR, a folder with meshes and a file "
-        "'footprints.*'",
+        "no sample is available: the server has none, or its folder has no meshes or no file 'footprints.*'",
         folder.string());
   return request;
 }

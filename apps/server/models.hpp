@@ -67,6 +67,8 @@ class Models {
   /// {"buildings": [RaisedBuilding]}. Fails with "edit-building".
   [[nodiscard]] auto preview(const std::vector<edit::Change>& changes, const OpenScene* scene) const
       -> base::Result<std::string>;
+  /// {"buildings": [RaisedBuilding]}: those that were edited, as they were before all edits, with revision 0.
+  [[nodiscard]] auto unedited(const OpenScene* scene) const -> std::string;
   /// Proposals. They fail with "edit-building", "edit-part", "edit-split", "edit-merge".
   [[nodiscard]] auto split(const SplitRequest& request) const -> base::Result<std::string>;
   [[nodiscard]] auto merge(const MergeRequest& request) const -> base::Result<std::string>;

@@ -101,6 +101,30 @@ auto Models::edited_plans() -> std::vector<std::vector<edit::Change>> {
   return out;
 }
 
+auto Models::unedited(const OpenScene* scene) const -> std::string {
+  auto first = *view();  // as it was before the edits
+  std::vector<edit::Change> changes;
+  for (auto& building : first.buildings) {
+    if (!building->edited) continue;
+    edit::Change change{building->id, 0, {}};
+    for (const auto& part : city_.buildings[index_.find(building->id)->second].parts)
+      change.parts.push_back({part.id, part.plan});
+    auto seen = std::make_shared<Seen>(*building);
+    seen->parts = change.parts;
+    seen->box = box_of(seen->parts);
+    building = std::move(seen);
+    changes.push_back(std::move(change));
+  }
+  std::vector<edit::RaisedBuilding> models(changes.size());
+  base::parallel_for(changes.size(), [&](std::size_t i) {
+    models[i] = raised(changes[i], index_.find(changes[i].building)->second, {}, first, scene);
+  });
+  Json buildings = Json::array();
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    buildings.push_back(json_of(changes[i].building, 0, changes[i].parts, models[i]));
+  return text_of({{"buildings", std::move(buildings)}});
+}
+
 auto Models::edit_to(const std::vector<edit::Change>& wanted, const std::string& what) const
     -> base::Result<std::optional<edit::Edit>> {
   const auto now = view();

@@ -62,6 +62,11 @@ auto Workspace::preview(const std::string& run, const std::vector<edit::Change>&
   return (*open)->preview(changes, scene_now().get());
 }
 
+auto Workspace::unedited(const std::string& run) -> Text {
+  const auto open = models(run);
+  return open ? Text((*open)->unedited(scene_now().get())) : Text(open.error());
+}
+
 auto Workspace::split(const std::string& run, const SplitRequest& request) -> Text {
   const auto open = models(run);
   return open ? (*open)->split(request) : Text(open.error());

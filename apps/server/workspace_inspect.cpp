@@ -61,8 +61,7 @@ auto Workspace::basemap(const std::string& run) -> Text {
   if (basemap_.file.empty() && basemap_.tiles.empty())
     return base::error(
         "server-no-basemap",
-        "there is no basemap; start 'mansard serve' with --basemap and a raster that says where it is, or "
-        "the address or folder of tiles");
+        "there is no basemap: the server was started without a raster that says where it is, or tiles of a map");
   const auto open = models(run);
   if (!open) return open.error();
   const auto& frame = (*open)->frame();

@@ -203,6 +203,8 @@ const { buildings: broken } = await call("post", "/api/runs/{run}/preview", { at
 assert.equal(broken.length, 1);
 await call("post", "/api/runs/{run}/edits", { at: of, body: { what: "cap", changes } });
 await call("post", "/api/runs/{run}/edits", { at: of, body: { what: "late", changes }, expect: 409 });
+const unedited = await call("get", "/api/runs/{run}/unedited", { at: of });
+assert.deepEqual(unedited.buildings.map((b) => [b.id, b.parts.map((p) => p.plan)]), [[building.id, building.parts.map((p) => p.plan)]]);
 await call("post", "/api/runs/{run}/undo", { at: of, body: {} });
 await call("post", "/api/runs/{run}/redo", { at: of, body: {} });
 await call("post", "/api/runs/{run}/redo", { at: of, body: {}, expect: 409 });

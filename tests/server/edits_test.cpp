@@ -89,6 +89,26 @@ TEST_F(Terrace, previews_without_writing) {
             "edit-building");
 }
 
+TEST_F(Terrace, gives_edited_buildings_as_they_were_before_their_edits) {
+  const auto unedited = [&] { return server_->get("/api/runs/run-1/unedited").json()["buildings"]; };
+  EXPECT_TRUE(unedited().empty());
+  const auto before = building(0);
+  ASSERT_EQ(send(lift(before, 1)).status, 200);
+  ASSERT_EQ(send(lift(building(0), 1)).status, 200);
+  ASSERT_NE(building(0)["parts"], before["parts"]);
+  const auto given = unedited();
+  ASSERT_EQ(given.size(), 1U) << given.dump();
+  for (const auto* key : {"id", "revision", "valid"}) EXPECT_EQ(given[0][key], before[key]) << key;
+  ASSERT_EQ(given[0]["parts"].size(), before["parts"].size());
+  for (const auto* key : {"id", "plan", "geometry", "volume"})
+    EXPECT_EQ(given[0]["parts"][0][key], before["parts"][0][key]) << key;
+  EXPECT_NEAR(given[0]["mse"].get<double>(), before["mse"].get<double>(), 1e-6);
+  EXPECT_GT(building(0)["mse"].get<double>(), 1) << "the edits are still there";
+  ASSERT_EQ(server_->post("/api/runs/run-1/undo", Json::object()).status, 200);
+  ASSERT_EQ(server_->post("/api/runs/run-1/undo", Json::object()).status, 200);
+  EXPECT_TRUE(unedited().empty());
+}
+
 TEST_F(Terrace, applies_a_valid_edit_and_refuses_an_invalid_one) {
   const auto before = building(0);
   const auto reply = send(lift(before, 1, "up"));

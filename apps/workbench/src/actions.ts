@@ -133,7 +133,7 @@ export async function refresh() {
   if (project.scene || !state.jobs.value.some((j) => j.kind === "read" && !ended(j))) void loadScene();
   const open = kept<Open | null>("session", openKey(), null) ?? kept<Open | null>("local", openKey(), null);
   const finished = project.runs.filter((r) => r.state === "done");
-  const there = (id: string | null | undefined) => finished.some((r) => r.id === id);
+  const there = (id: string | null | undefined) => finished.some((r) => id && r.id === state.runOf(id));
   const wanted = state.run.value?.id ?? open?.run;
   const id = there(wanted) ? wanted : finished.at(-1)?.id;
   if (!id) {
@@ -142,7 +142,7 @@ export async function refresh() {
   }
   await openRun(id, open?.selection ?? null);
   const beside = state.other.value?.id ?? open?.other;
-  if (there(beside) && beside !== id) await compareWith(beside!);
+  if (there(beside) && beside !== id && (!state.isBefore(beside!) || beside === state.beforeOf(id))) await compareWith(beside!);
 }
 
 export async function loadScene() {
@@ -231,7 +231,19 @@ export async function deleteRun(run: string) {
 
 const isLarge = (run: string) => (state.runSummary(run)?.buildings ?? 0) > mostAtOnce;
 
+/** A run as it was before its edits. Buildings without edits are those of the open run. */
+async function fetchUnedited(id: string): Promise<state.OpenRun | undefined> {
+  const run = state.runOf(id);
+  const answer = await attempt(client.unedited(run));
+  const open = state.run.value;
+  if (!answer || open?.id !== run) return undefined;
+  const buildings = new Map(open.buildings);
+  for (const b of answer.buildings) buildings.set(b.id, { ...open.buildings.get(b.id)!, ...b, edited: false });
+  return { id, buildings, history: { edits: [], done: 0 } };
+}
+
 async function fetchRun(id: string): Promise<state.OpenRun | undefined> {
+  if (state.isBefore(id)) return fetchUnedited(id);
   if (isLarge(id)) {
     const list = await attempt(client.list(id));
     return list && { id, buildings: new Map(), history: list.history, large: largeOf(list) };
@@ -249,7 +261,8 @@ export async function openRun(id: string, at: state.Selection | null = state.sel
     state.opening.value = null;
     if (!opened) return;
     if (state.run.value?.id !== id) state.draft.value = null;
-    if (state.other.value?.id === id) state.other.value = null;
+    const beside = state.other.value?.id;
+    if (beside === id || (state.isBefore(beside) && beside !== state.beforeOf(id))) state.other.value = null;
     state.run.value = opened;
     state.selection.value = existing(opened, at);
     state.also.value = [];
@@ -624,7 +637,7 @@ export function received(event: api.Event) {
   else if (event.type === "project") {
     state.project.value = event.project;
     if (!event.project.inputs) state.scene.value = state.tiles.value = null;
-    const gone = (open: state.OpenRun | null) => open && !event.project.runs.some((r) => r.id === open.id);
+    const gone = (open: state.OpenRun | null) => open && !event.project.runs.some((r) => r.id === state.runOf(open.id));
     if (gone(state.other.value)) state.other.value = null;
     if (gone(state.run.value)) closeRun();
   } else if (event.type === "buildings" && event.client !== client.id) {

@@ -1,6 +1,6 @@
 // Large runs: every building is listed at once, without its models. Those of the tiles near the camera are loaded.
 import type { BuildingList, Diagnostic } from "./api/types";
-import { inPage, sentence } from "./panels/words";
+import { said } from "./panels/words";
 import type { Row } from "./panels/table";
 
 type Vector = [number, number, number];
@@ -77,7 +77,7 @@ export function largeOf(list: BuildingList): Large {
     id,
     block: list.blocks[i]!,
     outcome: list.outcomes[i]!,
-    reasons: [...new Set((list.reasons[id] ?? []).map((d) => sentence(inPage(d.message))))],
+    reasons: [...new Set((list.reasons[id] ?? []).map(said))],
     parts: shapes[i]!.length,
     rmse: list.errors[i] === null ? null : Math.sqrt(list.errors[i]!),
     volume: list.volumes[i]!,

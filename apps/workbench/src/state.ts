@@ -137,7 +137,16 @@ export function scoresOf(summary: api.RunSummary): { scores: api.Scores | null; 
   return now ? { scores: now.scores, outdated: false } : { scores: summary.scores, outdated: true };
 }
 
-export const runSummary = (id: string | undefined) => project.value?.runs.find((r) => r.id === id);
+/** A run before its edits stands beside it as another run: its id, and that of the run itself. */
+const before = "/before";
+export const beforeOf = (id: string) => id + before;
+export const isBefore = (id: string | undefined) => id?.endsWith(before) ?? false;
+export const runOf = (id: string) => (isBefore(id) ? id.slice(0, -before.length) : id);
+
+export function runSummary(id: string | undefined): api.RunSummary | undefined {
+  const found = project.value?.runs.find((r) => id !== undefined && r.id === runOf(id));
+  return found && isBefore(id) ? { ...found, id: id!, label: `${found.label || found.id} before its edits`, edits: 0 } : found;
+}
 export const busyJob = computed(
   () => jobs.value.find((j) => j.state === "running") ?? jobs.value.find((j) => j.state === "queued"),
 );

@@ -5,7 +5,7 @@ import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import { join } from "node:path";
-import type { Page } from "@playwright/test";
+import type { Locator, Page } from "@playwright/test";
 import type * as api from "../src/api/types";
 import { structuresOf } from "../src/edit/structures";
 import { type Line, type Server, data, expect, fingers, mansard, picture, png, saved, test } from "./harness";
@@ -387,6 +387,25 @@ test("two runs are compared side by side, with the error map, the plots and the 
 
   await page.getByRole("combobox", { name: "Run", exact: true }).selectOption("run-1");
   await open(page, "high quality");
+  await test.step("errors are in metres everywhere, square metres only where areas are", async () => {
+    const scores = (await server.get<api.Project>("/api/project")).runs[0]!.scores!;
+    const rmse = `RMSE ${Math.sqrt(scores.footprint_mse).toFixed(3)} m`;
+    await page.getByRole("tab", { name: "Run" }).click();
+    await expect(page.getByRole("listitem").filter({ hasText: "high quality" })).toContainText(rmse);
+    const one = (await buildings(page)).find((b) => b.mse !== null && b.mse > 0.01)!;
+    await page.getByRole("tab", { name: "Buildings" }).click();
+    await page.getByLabel("Filter buildings").fill(one.id);
+    await expect(page.getByRole("columnheader", { name: "RMSE m" })).toBeVisible();
+    await expect(page.getByRole("row", { name: one.id }).getByText(Math.sqrt(one.mse!).toFixed(2), { exact: true })).toBeVisible();
+    await page.getByRole("row", { name: one.id }).click();
+    await page.getByLabel("Filter buildings").fill("");
+    for (const tab of ["Run", "Buildings", "Plots", "Edit"]) {
+      await page.getByRole("tab", { name: tab }).click();
+      expect(await page.getByRole("tabpanel").innerText()).not.toMatch(/\bMSE\b|mean square error|RMSE[^\n]*m²/);
+    }
+    await expect(page.getByRole("tabpanel").getByText(`${Math.sqrt(one.mse!).toFixed(3)} m`, { exact: true })).toBeVisible();
+  });
+
   await page.getByRole("tab", { name: "Plots" }).click();
   await expect(page.getByRole("img", { name: /profiles/ })).toBeVisible();
   await expect(page.getByRole("img", { name: "Histogram of vertical errors" })).toBeVisible();
@@ -429,7 +448,11 @@ test("each run has its own marks, edits are carried over, and merging across bui
   await test.step("a new run offers the edits of the one before", async () => {
     expect((await buildingOf(page, house.id)).edited).toBe(false);
     await page.getByRole("button", { name: "Carry over from first" }).click();
-    await expect(page.getByText("edits of 1 building carried over")).toBeVisible();
+    const said = page.locator(".message").filter({ hasText: "edits of 1 building carried over" });
+    await expect(said).toBeVisible();
+    expect((await colourOf(said, "border-left-color"))[0], "a success is green, not orange as warnings are").toBeLessThan(
+      (await colourOf(said, "border-left-color"))[1]!,
+    );
     await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(true);
     expect((await buildingOf(page, house.id)).parts[0]!.plan).toEqual(plan);
     await expect(page.getByRole("button", { name: /^Carry over from/ })).toHaveCount(0);
@@ -440,13 +463,15 @@ test("each run has its own marks, edits are carried over, and merging across bui
     await page.evaluate((id) => {
       const { state } = (window as unknown as Known["window"]).mansard;
       const run = state.run.value!;
-      const reason: api.Diagnostic = { severity: "warning", code: "test", message: "for the test", subject: id };
+      const reason: api.Diagnostic = { severity: "warning", code: "test", message: "for the test; give --mesh-offset", subject: id };
       const building = { ...run.buildings.get(id)!, reasons: [reason] };
       state.run.value = { ...run, buildings: new Map(run.buildings).set(id, building) };
     }, house.id);
     await pick(page, house.id);
     for (const tab of ["Edit", "Run", "Attributes", "Layers", "Buildings"]) {
       await page.getByRole("tab", { name: tab }).click();
+      if (tab === "Layers") await expect(page.locator(".said")).toContainText("For the test; give the option “mesh offset”");
+      expect(await page.locator("body").innerText(), "options are named as in the page").not.toMatch(/--[a-z]/);
       await expect(page.getByRole("region", { name: "Diagnostics of the selected building" })).toContainText(/for the test/i);
     }
     await expect(page.getByRole("row", { name: house.id }).getByLabel(/for the test/i)).toBeVisible();
@@ -459,6 +484,31 @@ test("each run has its own marks, edits are carried over, and merging across bui
     expect(await pixels(page, mark, [0, 0.5])).toBeGreaterThan(20);
     expect(await pixels(page, mark, [0.5, 1])).toBe(0);
   });
+});
+
+/** Red, green and blue of a colour of an element, 0 to 255. */
+const colourOf = (of: Locator, property: string) =>
+  of.evaluate((e, name) => getComputedStyle(e).getPropertyValue(name).match(/[\d.]+/g)!.map(Number), property);
+
+test("messages name options as the form does, and a wrong token is no restart", async ({ page, server }) => {
+  await openSample(page, server);
+  // Footprints that are far from the mesh.
+  await fetch(`${server.origin}/api/project/inputs`, {
+    method: "POST",
+    headers: { Authorization: `Bearer ${server.token}`, "Content-Type": "application/json" },
+    body: JSON.stringify({ meshes: [join(data, "delft/mesh.ply")], footprints: join(data, "hall/footprints.geojson"), reading: {} }),
+  });
+  const said = page.locator(".message.error");
+  await expect(said).toContainText("the option “mesh offset”");
+  const [red, green] = await colourOf(said, "border-left-color");
+  expect(red).toBeGreaterThan(green!);
+  expect(await page.locator("body").innerText()).not.toMatch(/--[a-z]/);
+  const texts = JSON.stringify(await server.get("/api/options"));
+  expect(texts, "nothing that the form of options shows is of a command line").not.toMatch(/--[a-z]/);
+
+  await page.goto(`${server.origin}/#token=wrong`); // the page loads itself again
+  await expect(page.getByRole("alert")).toContainText("The link of this page is incomplete, or from an earlier start");
+  expect(await page.locator("body").innerText()).not.toMatch(/(was|has been) (re)?started|started again/i);
 });
 
 test("a click in the 3D view selects the building there", async ({ clean: page, server }) => {
@@ -500,13 +550,26 @@ test("a killed server is restarted, and no acknowledged change is lost", async (
   await server.stop("SIGKILL");
   await expect(page.getByRole("status", { name: "The server does not answer" })).toBeVisible();
 
+  const record = join(server.project, "runs/run-1/run.json");
+  const told = JSON.parse(readFileSync(record, "utf8"));
+  // A run on several threads: the processors were busy for longer than it took.
+  Object.assign(told.times, { cpu_seconds: 46, wall_seconds: 12 });
+  for (const stage of told.times.stages) Object.assign(stage, { cpu_seconds: 31, wall_seconds: 11 });
+  writeFileSync(record, JSON.stringify(told));
+
   await server.start();
   await page.goto(server.link);
   await page.getByRole("tab", { name: "Run" }).click();
   const row = page.getByRole("listitem").filter({ hasText: "cut short" });
   await expect(row).toContainText("interrupted");
+  const finished = page.getByRole("listitem").filter({ hasText: "run-1" });
+  await expect(finished).toContainText("12 s");
+  await expect(finished).not.toContainText("46 s");
   await page.getByRole("button", { name: "kept", exact: true }).click();
   await expect.poll(async () => (await buildingOf(page, house.id))?.parts[0]?.plan).toEqual(edited.parts[0]!.plan);
+  await page.getByRole("tab", { name: "Plots" }).click();
+  await expect(page.getByRole("tabpanel")).toContainText(/Elapsed in \w+\s*11 s/);
+  await expect(page.getByRole("tabpanel")).not.toContainText("31 s");
   await page.getByRole("button", { name: /^Undo/ }).click();
   await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(false);
 });
@@ -931,6 +994,41 @@ test("roof shapes are applied in one click, and the view is divided", async ({ c
   await page.keyboard.press("ArrowRight");
   await expect(boundary).toHaveAttribute("aria-valuenow", "52");
   await picture(page, "divided");
+
+  await test.step("after and before the edits", async () => {
+    await page.getByRole("tab", { name: "Edit" }).click();
+    const both = page.getByRole("button", { name: "Before edits" });
+    await both.click();
+    const edges = page.getByRole("slider", { name: "Boundary between after and before the edits" });
+    await expect(edges).toBeVisible();
+    const besides = () => page.evaluate((id) => (window as unknown as Known["window"]).mansard.state.other.value?.buildings.get(id), house.id);
+    expect((await besides())!.parts[0]!.plan).toEqual(house.parts[0]!.plan);
+    expect((await besides())!.parts[0]!.geometry).toEqual(house.parts[0]!.geometry);
+    expect((await buildingOf(page, house.id)).parts[0]!.plan).toEqual(before.parts[0]!.plan);
+    expect(volume(before)).not.toBeCloseTo(volume(house), 3);
+    // The same place in the image, with the boundary on either side of it.
+    await page.keyboard.press("f");
+    await picture(page, "before-after");
+    const drawn = async (key: string) => {
+      await edges.focus();
+      for (let i = 0; i < 30; ++i) await page.keyboard.press(key);
+      await idle(page);
+      return page.screenshot({ clip: (await canvas(page).boundingBox())! });
+    };
+    const [old, edited] = [await drawn("ArrowLeft"), await drawn("ArrowRight")];
+    expect(await difference(page, old, edited), "the roofs differ").toBeGreaterThan(0.003);
+    await page.getByRole("tab", { name: "Run" }).click();
+    await page.getByLabel("Compare with").selectOption({ label: "none" });
+    await page.getByLabel("Compare with").selectOption({ label: "this run before its edits" });
+    await expect(page.getByRole("tabpanel")).toContainText("shaped before its edits");
+    await expect(page.getByRole("tabpanel").getByRole("row", { name: house.id })).toBeVisible();
+    await page.reload();
+    await open(page, "shaped");
+    await expect.poll(async () => (await besides())?.parts[0]?.plan).toEqual(house.parts[0]!.plan);
+    await page.getByRole("tab", { name: "Edit" }).click();
+    await both.click();
+    await expect(edges).toHaveCount(0);
+  });
 });
 
 test("files are dropped on the view, and models of others are shown beside the run", async ({ clean: page, server, folder }) => {

@@ -78,6 +78,7 @@ export class Client {
     this.json<api.Section>("POST", this.of(run, "/section"), at);
   preview = (run: string, changes: api.Change[], signal?: AbortSignal) =>
     this.json<{ buildings: api.RaisedBuilding[] }>("POST", this.of(run, "/preview"), { changes }, signal);
+  unedited = (run: string) => this.json<{ buildings: api.RaisedBuilding[] }>("GET", this.of(run, "/unedited"));
   split = (run: string, building: string, part: string, line: api.Point2[]) =>
     this.json<api.Proposal>("POST", this.of(run, "/split"), { building, part, line });
   merge = (run: string, parts: { building: string; part: string }[]) =>

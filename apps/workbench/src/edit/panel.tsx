@@ -1,9 +1,9 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { select } from "../actions";
+import { compareWith, select } from "../actions";
 import { keep, kept } from "../keep";
 import * as state from "../state";
-import { sentence } from "../panels/words";
+import { said } from "../panels/words";
 import "./edit.css";
 import { selectEdge, shortId, shortName } from "./desk";
 import { session, showDraft } from "./here";
@@ -11,6 +11,7 @@ import { PlanEditor } from "./plan_editor";
 import { ProfileEditor } from "./profile_editor";
 import { Roofs } from "./roofs";
 import { structuresOf } from "./structures";
+import { divided } from "../view/layers";
 
 /** The editors of the selected part: its plan above, the profile of its selected edge below. */
 export function EditPanel() {
@@ -59,7 +60,7 @@ export function EditPanel() {
     return (
       <section class="edit-panel empty">
         <p>
-          {building.id} has no model{building.reasons[0] ? `: ${building.reasons[0].message}` : "."}
+          {building.id} has no model. {building.reasons[0] && said(building.reasons[0])}
         </p>
       </section>
     );
@@ -107,6 +108,12 @@ const words = {
   held: "",
 };
 
+/** Divides the view between the run and what it was before its edits, or shows the run alone. */
+async function showBefore(on: boolean) {
+  await compareWith(on ? state.beforeOf(state.run.value!.id) : null);
+  divided.value = state.isBefore(state.other.value?.id) ? 0.5 : null;
+}
+
 /** The selected part, and the state of its change. */
 function EditBar() {
   const at = state.selection.value!;
@@ -114,6 +121,7 @@ function EditBar() {
   const draft = state.draft.value;
   const phase = session.phase.value;
   const held = phase === "held";
+  const compared = state.isBefore(state.other.value?.id);
   const dormers = new Set(structuresOf(building.parts).flatMap((s) => (s.dormer ? [s.id] : [])));
   return (
     <header class={`edit-bar${draft?.invalid ? " invalid" : held ? " held" : ""}`}>
@@ -137,6 +145,16 @@ function EditBar() {
           <span title={at.part ?? undefined}>{shortName(building.id, at.part ?? "")}</span>
         )}
         {building.edited && <span class="edit-mark">edited</span>}
+        {(compared || (building.edited && !state.run.value!.large)) && (
+          <button
+            type="button"
+            aria-pressed={compared}
+            title="Models after the edits on the left, before them on the right of a boundary that can be dragged"
+            onClick={() => void showBefore(!compared)}
+          >
+            Before edits
+          </button>
+        )}
         <span class="edit-state" aria-live="polite">
           {words[phase]}
         </span>
@@ -166,7 +184,7 @@ function Held() {
         {elsewhere && <b>{draft.changes.map((c) => shortId(c.building)).join(", ")}: </b>}
         {reason ? (
           <>
-            {sentence(reason.message)} <code>{reason.code}</code>
+            {said(reason)} <code>{reason.code}</code>
           </>
         ) : (
           "This change is not saved yet."

@@ -37,8 +37,8 @@ export function numbers(first: RunSummary, second: RunSummary): NumberRow[] {
     row("CPU time", "s", 1, (r) => r.times.cpu_seconds),
   ];
   const stages = [...new Set([...first.times.stages, ...second.times.stages].map((t) => t.stage))];
-  const time = (r: RunSummary, stage: string) => r.times.stages.find((t) => t.stage === stage)?.cpu_seconds;
-  return [...rows, ...stages.map((stage) => row(`CPU time of ${stage}`, "s", 1, (r) => time(r, stage)))];
+  const time = (r: RunSummary, stage: string) => r.times.stages.find((t) => t.stage === stage)?.wall_seconds;
+  return [...rows, ...stages.map((stage) => row(`Elapsed in ${stage}`, "s", 1, (r) => time(r, stage)))];
 }
 
 /** Second minus first; null if one is missing. */

@@ -29,9 +29,11 @@ export function ComparePanel() {
         <span>
           <b>{left}</b> left, <b>{right}</b> right
         </span>
-        <button type="button" class="small" onClick={() => void swap()}>
-          Swap
-        </button>
+        {!state.isBefore(second.id) && (
+          <button type="button" class="small" onClick={() => void swap()}>
+            Swap
+          </button>
+        )}
         <button type="button" class="small" onClick={() => void compareWith(null)}>
           End comparison
         </button>

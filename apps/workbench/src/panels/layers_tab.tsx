@@ -5,7 +5,7 @@ import type { Diagnostic } from "../api/types";
 import * as state from "../state";
 import { LayerList } from "../view/layers_panel";
 import { SearchField } from "./search_field";
-import { grouped, sentence } from "./words";
+import { grouped, said } from "./words";
 
 interface Found extends Diagnostic {
   building: string | null;
@@ -31,7 +31,7 @@ const found = computed((): Found[] => {
 
 export function LayersTab() {
   const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
-  const text = (d: Found) => `${d.code} ${d.message} ${d.subject} ${d.building ?? ""}`.toLowerCase();
+  const text = (d: Found) => `${d.code} ${said(d)} ${d.subject} ${d.building ?? ""}`.toLowerCase();
   const rows = found.value.filter((d) => words.every((w) => text(d).includes(w)));
   return (
     <div class="panel">
@@ -68,7 +68,7 @@ export function LayersTab() {
                       <span class="quiet">{d.subject}</span>
                     )}
                   </div>
-                  {sentence(d.message)}
+                  {said(d)}
                 </li>
               ))}
             </ul>

@@ -2,7 +2,7 @@
 import { dismiss } from "../actions";
 import * as state from "../state";
 import { Icon } from "./icons";
-import { inPage, sentence } from "./words";
+import { said } from "./words";
 
 export function Messages() {
   return (
@@ -27,7 +27,7 @@ export function Messages() {
       {state.messages.value.map((m) => (
         <div key={m.code + m.message} class={`message ${m.severity}`}>
           <p>
-            {sentence(inPage(m.message))} {m.subject && <span class="quiet">({m.subject})</span>} <code>{m.code}</code>
+            {said(m)} {m.subject && <span class="quiet">({m.subject})</span>} <code>{m.code}</code>
           </p>
           <button type="button" class="plain" aria-label="Dismiss" onClick={() => dismiss(m)}>
             <Icon name="close" />

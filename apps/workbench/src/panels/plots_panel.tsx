@@ -227,8 +227,8 @@ function Totals() {
       {!within.value &&
         summary?.times.stages.map((t) => (
           <>
-            <dt class="sub">CPU time in {t.stage}</dt>
-            <dd>{seconds(t.cpu_seconds)}</dd>
+            <dt class="sub">Elapsed in {t.stage}</dt>
+            <dd title={`${seconds(t.cpu_seconds)} of CPU time`}>{seconds(t.wall_seconds)}</dd>
           </>
         ))}
     </dl>

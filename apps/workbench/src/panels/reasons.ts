@@ -1,10 +1,10 @@
 // Why a building has a simpler model than asked for, or diagnostics.
 import type { Building } from "../api/types";
-import { inPage, sentence } from "./words";
+import { said } from "./words";
 
 /** As sentences, without repetitions: those of the run first, then those of the present models. */
 export const reasonsOf = (b: Building): string[] => [
   ...new Set(
-    [...b.reasons, ...b.diagnostics, ...b.parts.flatMap((p) => p.diagnostics)].map((d) => sentence(inPage(d.message))),
+    [...b.reasons, ...b.diagnostics, ...b.parts.flatMap((p) => p.diagnostics)].map(said),
   ),
 ];

@@ -9,7 +9,7 @@ import { OptionFields } from "./option_fields";
 import { changed, faulty, forRuns } from "./options";
 import { Progress } from "./progress";
 import { changeInputs } from "./start";
-import { bytes, count, fixed, grouped, inPage, nameOf, rmse, seconds, sentence } from "./words";
+import { bytes, count, fixed, grouped, nameOf, rmse, said, seconds } from "./words";
 
 /** The contents of the form; kept across reloads. */
 interface Form {
@@ -321,7 +321,7 @@ function RunRow({ run }: { run: RunSummary }) {
           </button>
         </div>
       )}
-      {run.failure && <p class="wrong">{sentence(inPage(run.failure.message))}</p>}
+      {run.failure && <p class="wrong">{said(run.failure)}</p>}
       {run.state === "done" && (
         <p class="run-numbers">
           {scores && (

@@ -13,6 +13,8 @@ export function TopBar() {
   const project = state.project.value;
   const finished = project?.runs.filter((r) => r.state === "done") ?? [];
   const run = state.run.value;
+  // Of a large run the page does not have all models.
+  const edited = run !== null && !run.large && (run.history.done > 0 || state.isBefore(state.other.value?.id));
   return (
     <header class="topbar">
       <span class="brand">
@@ -38,7 +40,7 @@ export function TopBar() {
             Compare with
             <select
               value={state.other.value?.id ?? ""}
-              disabled={finished.length < 2}
+              disabled={finished.length < 2 && !edited}
               onChange={(e) => {
                 const id = e.currentTarget.value || null;
                 void actions.compareWith(id);
@@ -46,6 +48,7 @@ export function TopBar() {
               }}
             >
               <option value="">none</option>
+              {run && edited && <option value={state.beforeOf(run.id)}>this run before its edits</option>}
               {finished
                 .filter((r) => r.id !== run?.id)
                 .map((r) => (

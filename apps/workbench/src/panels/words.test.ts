@@ -16,7 +16,7 @@ it("messages begin with a capital letter", () => {
 
 it("options are named as in the page, not as on a command line", () => {
   expect(inPage("the footprints are far from the mesh; give --mesh-offset or --crs")).toBe(
-    "the footprints are far from the mesh; give the option “mesh-offset” or the option “crs”",
+    "the footprints are far from the mesh; give the option “mesh offset” or the option “crs”",
   );
   expect(inPage("well--known and -- alone")).toBe("well--known and -- alone");
 });

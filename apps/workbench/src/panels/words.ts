@@ -33,11 +33,16 @@ export function bytes(n: number): string {
 }
 /** Shortens long names in a sentence, such as ids of 36 characters, to their beginnings and ends. */
 export const brief = (text: string) => text.replace(/[^\s]{20,}/g, (name) => `${name.slice(0, 9)}…${name.slice(-4)}`);
-/** Options as a page offers them: messages of the program give them as on a command line, such as --mesh-offset. */
+/** Options as the form of options names them: messages of the program give them as on a command line, such as --mesh-offset. */
 export const inPage = (text: string) =>
-  text.replace(/(^|[\s'(])--([a-z][a-z0-9.]*(?:-[a-z0-9]+)*)/g, (_, before: string, name: string) => `${before}the option “${name}”`);
+  text.replace(
+    /(^|[^\w-])--([a-z][a-z0-9.]*(?:-[a-z0-9]+)*)/g,
+    (_, before: string, name: string) => `${before}the option “${name.replaceAll("-", " ")}”`,
+  );
 /** With a capital first letter. */
 export const sentence = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
+/** The message of a diagnostic as the page shows it. */
+export const said = ({ message }: { message: string }) => sentence(inPage(message));
 /** The name of a run: its label, or its id if it has none. */
 export const nameOf = (run: { id: string; label: string }) => run.label || run.id;
 /** The name of a run, followed by its id if they differ. */

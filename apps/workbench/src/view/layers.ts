@@ -61,7 +61,7 @@ export const list: readonly Layer[] = [
     "basemap",
     "Basemap",
     "#7d9a6a",
-    "A picture of the ground under the models: a raster or tiles that the server was started with (--basemap). Tiles of another server are fetched when this is shown.",
+    "A picture of the ground under the models: a raster or tiles that the server was started with. Tiles of another server are fetched when this is shown.",
     false,
   ),
   layer("Input", "footprints", "Footprints", "#f08c1e", "Input footprints, at ground height."),

@@ -90,7 +90,7 @@ export function followLink(open: (run: string, at: state.Selection | null) => Pr
       stop();
       if (!runs.some((r) => r.id === link.run)) return;
       await open(link.run!, link.selection ?? null);
-      if (link.other && runs.some((r) => r.id === link.other)) await compare(link.other);
+      if (link.other && runs.some((r) => r.id === state.runOf(link.other!))) await compare(link.other);
     });
   });
 }

@@ -80,7 +80,7 @@ export function Toolbar() {
       )}
       <button
         type="button"
-        title={state.other.value ? "Drag a boundary between the two runs" : "Drag a boundary between the scan and the models"}
+        title={state.other.value ? "Drag a boundary between what is compared" : "Drag a boundary between the scan and the models"}
         aria-label="Divide the view"
         aria-pressed={divided.value !== null}
         onClick={() => (divided.value = divided.value === null ? 0.5 : null)}

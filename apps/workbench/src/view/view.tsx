@@ -220,11 +220,11 @@ function connect(to: Viewer): () => void {
       return [
         effect(() => {
           const run = id();
-          if (run && needsSegmentation()) void actions.needLayers(run);
+          if (run && !state.isBefore(run) && needsSegmentation()) void actions.needLayers(run);
         }),
         effect(() => {
           const run = id();
-          if (run && choices.value.error.shown && !state.outdatedMaps.value.has(run)) void actions.needErrorMaps(run);
+          if (run && !state.isBefore(run) && choices.value.error.shown && !state.outdatedMaps.value.has(run)) void actions.needErrorMaps(run);
         }),
         effect(() => to.setSegmentation(which, state.segmentations.value.get(id() ?? "") ?? null)),
         effect(() => to.setErrorMaps(which, state.errorMaps.value.get(id() ?? "") ?? null)),
@@ -288,7 +288,7 @@ export function View() {
           loadTile: (id, signal) => actions.client.tile(id, signal),
           loadTilePicture: (id, signal) => actions.client.tileTexture(id, signal),
           loadBuildingPicture: (which, building) =>
-            actions.client.buildingTexture((which ? state.other : state.run).value?.id ?? "", building),
+            actions.client.buildingTexture(state.runOf((which ? state.other : state.run).value?.id ?? ""), building),
         },
         choices.peek(),
       );
@@ -341,7 +341,8 @@ function Divider() {
   const share = divided.value;
   if (share === null) return null;
   const set = (x: number) => (divided.value = Math.min(0.98, Math.max(0.02, x)));
-  const what = state.other.value ? "the two runs" : "the scan and the models";
+  const other = state.other.value;
+  const what = !other ? "the scan and the models" : state.isBefore(other.id) ? "after and before the edits" : "the two runs";
   return (
     <div
       class="divider"
