@@ -1528,7 +1528,7 @@ test("a basemap is shown under the models, if the server was started with one", 
   await page.getByRole("tab", { name: "Layers" }).click();
   await expect(layer).not.toBeChecked();
   await layer.click();
-  await expect(page.getByText(/There is no basemap; start/)).toBeVisible();
+  await expect(page.getByText(/There is no basemap: the server was started without/)).toBeVisible();
   await expect(layer).not.toBeChecked();
 
   // A picture with a world file: stripes of 10 m, much larger than the street.
