@@ -10,7 +10,6 @@ namespace mansard::profile::detail {
 namespace {
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-constexpr double looked_through_first = 1;  // m; pieces this near
 
 auto squared(SectionPoint a, SectionPoint b) -> double {
   const double u = a.inward - b.inward, h = a.height - b.height;
@@ -30,10 +29,10 @@ class Ends {
   }
 
   /// The acceptable piece with an end nearest to `at`, within `radius`; the lowest number among equals. Pieces of a
-  /// surface are joined, so that it is mostly found right there.
+  /// surface are joined, so that it is mostly found right there: what is nearest is so within any reach.
   template <class Accept>
   [[nodiscard]] auto nearest(SectionPoint at, double radius, Accept accept) const -> std::size_t {
-    for (const double share : {1.0 / 64, 1.0 / 8, 1.0})
+    for (const double share : {1.0 / 64, 1.0 / 8, 1.0 / 3, 1.0})
       if (const auto found = nearest_of_all(at, share * radius, accept); found != none) return found;
     return none;
   }
@@ -67,9 +66,7 @@ auto walk(std::span<const Piece> pieces, const Ends& ends, std::size_t start, do
   while (sign * points.back().height < sign * limit) {
     const SectionPoint end = points.back();
     const auto goes_on = [&](std::size_t i) { return sign * far_end(i).height > sign * end.height; };
-    // Most are near, and found at once: what is nearest is so within any reach.
-    std::size_t next = ends.nearest(end, std::min(looked_through_first, options.jump), goes_on);
-    if (next == none) next = ends.nearest(end, options.jump, goes_on);
+    const std::size_t next = ends.nearest(end, options.jump, goes_on);
     if (next == none) break;
     // A piece that dips behind the point reached (a parapet's back) joins where it comes level with it.
     const SectionPoint from = near_end(next), to = far_end(next);
