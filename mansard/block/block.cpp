@@ -16,6 +16,7 @@
 #include "mansard/block/detail/near.hpp"
 #include "mansard/block/detail/neighbours.hpp"
 #include "mansard/geometry/change.hpp"
+#include "mansard/geometry/mesh_part.hpp"
 
 namespace mansard::block {
 namespace {
@@ -267,7 +268,7 @@ auto others_of(const std::vector<std::uint32_t>& near, const std::vector<std::si
   return out;
 }
 
-/// The boxes as a mesh of flat triangles: each its diagonal, so that detail::candidates finds them too.
+/// The boxes as a mesh of flat triangles: each its diagonal, so that geometry::triangles_near finds them too.
 auto as_mesh(const std::vector<geometry::Box2>& boxes) -> geometry::Mesh {
   geometry::Mesh mesh;
   for (const auto& box : boxes) {
@@ -397,13 +398,13 @@ Partition::Partition(const model::Scene& scene, const Options& options, const ba
     regions.push_back(box.grown(std::max(options.padding, options.ground_ring)));
     reaches.push_back(box.grown(options.ground_reach));
   }
-  near_by = detail::candidates(scene.mesh, regions);
+  near_by = geometry::triangles_near(scene.mesh, regions);
   if (run.cancelled()) return;
-  prepared_->shapes_near = detail::candidates(as_mesh(shapes.boxes), regions);
+  prepared_->shapes_near = geometry::triangles_near(as_mesh(shapes.boxes), regions);
   // Only where nothing is nearer does the mesh farther away matter.
   for (std::size_t b = 0; b < outlines.size(); ++b)
     if (!near_by[b].empty()) reaches[b] = {};
-  prepared_->within_reach = detail::candidates(scene.mesh, reaches);
+  prepared_->within_reach = geometry::triangles_near(scene.mesh, reaches);
   run.report("block", "", 0.4);
   if (!run.cancelled()) prepared_->blocks = std::move(outlines);
 }

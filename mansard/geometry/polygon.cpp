@@ -55,6 +55,10 @@ auto side_of(std::span<const Point2> ring, Point2 p) -> Side {
 
 auto contains(std::span<const Point2> ring, Point2 p) -> bool { return side_of(ring, p) != Side::outside; }
 
+auto contains(std::span<const Polygon> polygons, Point2 p) -> bool {
+  return std::ranges::any_of(polygons, [p](const Polygon& polygon) { return contains(polygon, p); });
+}
+
 auto contains(const Polygon& polygon, Point2 p) -> bool {
   if (side_of(polygon.outer, p) == Side::outside) return false;
   return std::ranges::none_of(polygon.holes, [p](const Ring& hole) { return side_of(hole, p) == Side::inside; });

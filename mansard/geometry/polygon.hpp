@@ -30,6 +30,8 @@ struct Polygon {
 /// Whether the point is in the closed ring or polygon, whatever the orientation. Exact.
 [[nodiscard]] auto contains(std::span<const Point2> ring, Point2 p) -> bool;
 [[nodiscard]] auto contains(const Polygon& polygon, Point2 p) -> bool;
+/// Whether one of them does.
+[[nodiscard]] auto contains(std::span<const Polygon> polygons, Point2 p) -> bool;
 
 /// m; 0 on the segment.
 [[nodiscard]] auto distance(const Segment2& segment, Point2 p) -> double;

@@ -105,7 +105,7 @@ auto presets() -> const std::vector<Preset>& {
 
 namespace {
 
-/// An option of earlier versions, and which one to use now; none for those that changed no model.
+/// An option of earlier versions, and which one to use now; none for those without which models are as good.
 struct Removed {
   std::string_view name, now;
 };
@@ -119,17 +119,32 @@ constexpr std::array removed{
     Removed{"fracture.settle_steps_per_crossing", ""},
     Removed{"label.party_strip", ""},
     Removed{"profile.assumed_storey", "pipeline.assumed_height"},
+    Removed{"profile.cap_high", ""},
+    Removed{"profile.cap_top_share", ""},
+    Removed{"profile.gentle_turn", ""},
+    Removed{"profile.level_slope", ""},
+    Removed{"profile.low_tolerance", ""},
     Removed{"profile.minimum_gutter", "profile.minimum_height"},
+    Removed{"profile.setback_height", ""},
+    Removed{"profile.short_run", ""},
+    Removed{"profile.sky_margin", ""},
     Removed{"profile.step", ""},
+    Removed{"refine.cuts_askew_price", ""},
+    Removed{"refine.cuts_hipped_min_area", ""},
     Removed{"refine.cuts_max_count", ""},
     Removed{"refine.cuts_max_directions", ""},
     Removed{"refine.cuts_min_rise", ""},
+    Removed{"refine.cuts_plane_share", ""},
     Removed{"refine.cuts_rise_reach", ""},
+    Removed{"refine.cuts_shape_price", ""},
+    Removed{"refine.cuts_smooth_by_height", ""},
     Removed{"refine.forms_cap_clearance", "profile.cap_clear"},
     Removed{"refine.forms_cap_distinct", ""},
     Removed{"refine.forms_cap_percentile", "profile.cap_ridge"},
     Removed{"refine.joins_max_pieces", ""},
     Removed{"refine.joins_recut_step", "refine.cuts_min_step"},
+    Removed{"refine.joins_round_gain", ""},
+    Removed{"refine.joins_rounds", ""},
     Removed{"refine.joins_shared_faces", ""},
     Removed{"refine.joins_touching", ""},
     Removed{"refine.mansard_min_split", "refine.mansard_min_depth"},
@@ -144,22 +159,33 @@ constexpr std::array removed{
     Removed{"refine.samples_level_band", "profile.cap_level"},
     Removed{"refine.samples_max_cells", ""},
     Removed{"refine.search_hopeless", ""},
+    Removed{"refine.search_min_difference", ""},
     Removed{"refine.setback_min_depth", "refine.mansard_min_depth"},
+    Removed{"refine.setback_tower_reach", ""},
+    Removed{"refine.setback_tower_share", ""},
+    Removed{"refine.sharpen_flat_slope", ""},
     Removed{"refine.splits_max_count", ""},
     Removed{"refine.splits_rows_per_bin", ""},
     Removed{"refine.surfaces_bin", ""},
     Removed{"refine.surfaces_plane_rounds", ""},
     Removed{"refine.tall_spacing", ""},
+    Removed{"refine.wings_min_length", ""},
     Removed{"segment.edge_cover", ""},
     Removed{"segment.height_spacing", ""},
+    Removed{"segment.minimum_inside_samples", ""},
     Removed{"segment.opening", ""},
+    Removed{"segment.same_height", ""},
     Removed{"segment.search_passes", ""},
     Removed{"segment.search_piece", ""},
     Removed{"segment.search_sequence", ""},
+    Removed{"segment.thin_overlap", ""},
     Removed{"slice.maximum_height", ""},
     Removed{"sweep.height_percentile", ""},
     Removed{"sweep.line_maximum_segment", ""},
+    Removed{"sweep.setback_gap", "sweep.column_gap"},
+    Removed{"sweep.step_grain_share", ""},
     Removed{"sweep.step_ground", "segment.min_height"},
+    Removed{"sweep.step_rest", ""},
     Removed{"vegetation.overhang_within", "vegetation.overhang"},
 };
 
@@ -168,7 +194,7 @@ constexpr std::array removed{
 auto why_removed(std::string_view key) -> std::string {
   const auto found = std::ranges::find(removed, key, &Removed::name);
   if (found == removed.end()) return {};
-  if (found->now.empty()) return "this option was removed, because it changed no model; leave it out";
+  if (found->now.empty()) return "this option was removed, because models are as good without it; leave it out";
   return "this option was removed; use '" + std::string(found->now) + "'";
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mansard/geometry/curve.hpp"
+#include "mansard/geometry/mesh_part.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -68,18 +69,7 @@ auto in_memory(const Mesh& mesh, const geometry::Box2& box) -> report::ScanPiece
   const std::size_t count = (sorted->size() + most - 1) / most, each = (sorted->size() + count - 1) / count;
   const auto load = [&mesh, sorted, each](std::size_t piece) -> base::Result<std::shared_ptr<const Mesh>> {
     const auto own = std::span(*sorted).subspan(piece * each, std::min(each, sorted->size() - piece * each));
-    std::vector<std::uint32_t> used;
-    for (const auto t : own) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-    std::ranges::sort(used);
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    auto out = std::make_shared<Mesh>();
-    for (const auto v : used) out->vertices.push_back(mesh.vertices[v]);
-    for (const auto t : own) {
-      auto triangle = mesh.triangles[t];
-      for (auto& v : triangle) v = static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
-      out->triangles.push_back(triangle);
-    }
-    return std::shared_ptr<const Mesh>(std::move(out));
+    return std::make_shared<const Mesh>(geometry::part_of(mesh, own));
   };
   return {count, load};
 }

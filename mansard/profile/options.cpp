@@ -91,9 +91,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("column_width", o.column_width, "m", {0.02, 5},
               "Width of the columns in which the heights of a slice are kept.")
       .advanced("as wide as slices are apart; not measured");
-  list.number("sky_margin", o.sky_margin, "m", {0, 50},
-              "Height above the top of the climb up to which mesh belongs to the roof.")
-      .advanced("chosen by hand; not measured");
   list.number("far_wall", o.far_wall, "m", {0, 20}, "Distance before the far wall at which a slice ends.")
       .advanced("chosen by hand; not measured");
   list.number("far_wall_from", o.far_wall_from, "m", {0, 50},
@@ -130,8 +127,6 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("setback_step", o.setback_step, "m", {0.1, 50}, "Minimum step of the wall behind a setback.")
       .advanced("docs/decisions/0017; not measured");
-  list.number("setback_height", o.setback_height, "m", {0, 50}, "Minimum height of the part before a setback.")
-      .advanced("docs/decisions/0017; not measured");
   list.integer("setback_blur", o.setback_blur, "", {1, 20},
                "Number of columns to either side of a setback's wall that a scan smears.")
       .advanced("chosen by hand; not measured");
@@ -139,8 +134,6 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("setback_level", o.setback_level, "m", {0, 20},
               "Maximum height difference within the part before a setback.")
-      .advanced("chosen by hand; not measured");
-  list.number("level_slope", o.level_slope, "", {0, 1}, "Slope below which a pitch is level.")
       .advanced("chosen by hand; not measured");
   list.integer("pitch_columns", o.pitch_columns, "", {2, 100}, "Minimum number of columns of a pitch.")
       .advanced("chosen by hand; not measured");
@@ -155,9 +148,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("single_pitch_tolerance", o.single_pitch_tolerance, "m", {0.001, 20},
               "Distance within which a slice agrees with a single pitch, which represents all of a roof.")
       .advanced("chosen by hand; not measured");
-  list.number("low_tolerance", o.low_tolerance, "", {1, 100},
-              "Factor by which tolerances are wider below profile.low_height.")
-      .advanced("reference implementation chordatlas: 5");
   list.number("hip_corner", o.hip_corner, "m", {0, 20},
               "Distance from the ends of an edge within which slices do not count, because the neighbour's roof begins "
               "there at a hip.")
@@ -168,12 +158,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("pitched_share", o.pitched_share, "", {0, 1},
               "Minimum share of an edge's slices that must rise for it to have a pitched roof.")
       .advanced("chosen by hand; not measured");
-  list.number("short_run", o.short_run, "m", {0, 50},
-              "Edges shorter than this take the profile of a neighbour, or are walls.")
-      .advanced("chosen by hand; not measured");
-  list.number("gentle_turn", o.gentle_turn, "", {0, 10},
-              "Tangent of the maximum angle between a short edge and the neighbour whose profile it takes.")
-      .advanced("chosen by hand; not measured");
   list.number("minimum_height", o.minimum_height, "m", {0.01, 50}, "Minimum height of a building.")
       .advanced("chosen by hand; not measured");
   list.number("cap_distinct", o.cap_distinct, "m", {0, 20}, "Minimum difference between two candidate cap heights.")
@@ -182,11 +166,6 @@ auto option_list(Options& o) -> base::OptionList {
               "Height of a cap above the tops of the profiles, so that roofs can close.")
       .advanced("reference implementation chordatlas: 0.5 m");
   list.number("cap_level", o.cap_level, "m", {0.01, 20}, "Height range that is one level of a flat roof.")
-      .advanced("chosen by hand; not measured");
-  list.number("cap_top_share", o.cap_top_share, "", {0, 1},
-              "Share of the edges' length whose profiles end below the common top.")
-      .advanced("reference implementation chordatlas: 90th percentile");
-  list.number("cap_high", o.cap_high, "", {0, 1}, "Percentile of the mesh's heights that is a candidate cap height.")
       .advanced("chosen by hand; not measured");
   list.number("cap_ridge", o.cap_ridge, "", {0, 1}, "Percentile of the mesh's heights that is the ridge height.")
       .advanced("chosen by hand; not measured");

@@ -57,7 +57,6 @@ struct Options {
 
   // Columns of heights, and where they rise.
   double column_width = 0.2;   ///< m
-  double sky_margin = 0.5;     ///< m above the climb's top; higher mesh hangs above the building
   double far_wall = 0.4;       ///< m before the far wall where a slice ends
   double far_wall_from = 2.0;  ///< m; shorter slices go on to it
   double wall_deepest = 1.5;   ///< m inward of the edge; a wall farther in does not move the start of the roof any more
@@ -74,25 +73,20 @@ struct Options {
 
   // Setbacks.
   double setback_step = 1.5;      ///< m from the lower roof up
-  double setback_height = 1.5;    ///< m above the base
   std::size_t setback_blur = 2;   ///< columns to either side of the wall that a scan smears
   std::size_t setback_depth = 4;  ///< columns before the wall, at least
   double setback_level = 1.0;     ///< m between the heights of the part before it
 
   // Pitches.
-  double level_slope = 0.05;      ///< slope; flatter is flat
   std::size_t pitch_columns = 4;  ///< columns of a pitch, at least
   double pitch_price = 0.15;  ///< m² · columns: what another pitch must save, 0.1 m over about fifteen columns (3 m of
                               ///< roof), or more over fewer
   double pitch_gain = 0.6;       ///< m; scans round off the edges of flat roofs too: what rises less is no pitch
   double pitch_tolerance = 0.3;  ///< m; a slice within it, over half of what it shows of a pitch, supports the pitch
   double single_pitch_tolerance = 1.0;  ///< m; the same for a single pitch, which stands for all that a roof does
-  double low_tolerance = 5.0;           ///< times the tolerance, below low_height
   double hip_corner = 1.0;              ///< m; at a hip the neighbour's roof begins there
   double hip_corner_from = 2.6;         ///< m; on shorter edges all slices count
   double pitched_share = 0.4;           ///< of an edge's slices that must rise; dormers may take the rest
-  double short_run = 1.0;               ///< m; shorter runs follow a neighbour or stand as walls
-  double gentle_turn = 0.5463;          ///< tangent of 0.5 rad: runs follow neighbours that they turn from by less
 
   // Heights and caps.
   double assumed_height = 3.0;  ///< m; where nothing was seen at all; no option: pipeline.assumed_height
@@ -100,8 +94,6 @@ struct Options {
   double cap_distinct = 0.1;    ///< m between candidate caps
   double cap_clear = 0.5;       ///< m above the profiles' tops, so that roofs can close
   double cap_level = 0.5;       ///< m of height that are one level of a flat roof, whatever stands on it
-  double cap_top_share = 0.9;   ///< of the edges' length whose profiles end below the common top
-  double cap_high = 0.95;       ///< percentile of the heights where a roof may end
   double cap_ridge = 0.99;      ///< percentile of the heights that counts as the ridge
 
   // Choice between profiles.

@@ -48,7 +48,7 @@ auto slices_of(const Polygon& polygon, const Run& run, const detail::SectionInde
     ++evidence.slices;
     const auto wall = detail::wall_position(*climb, options, base);
     if (wall) walls.push_back(*wall);
-    slices.push_back(detail::columns_of(pieces, *climb, sample, base, wall, options));
+    slices.push_back(detail::columns_of(pieces, sample, base, wall, options));
   }
   if (!walls.empty()) {
     std::ranges::sort(walls);
@@ -158,40 +158,23 @@ auto prepare(const segment::Part& part, const block::Block& block, const rays::S
   return work;
 }
 
-auto caps_of(const Work& work, const Polygon& polygon, const Options& options) -> std::vector<double> {
-  std::vector<detail::ProfileTop> tops;
+auto caps_of(const Work& work, const Options& options) -> std::vector<double> {
+  std::vector<double> tops;
   bool pitched = false;
   for (std::size_t r = 0; r < work.runs.size(); ++r) {
     if (work.evidence[r].slices == 0) continue;
-    tops.push_back({work.profile(r).back().height, detail::length_of(polygon, work.runs[r])});
+    tops.push_back(work.profile(r).back().height);
     pitched = pitched || work.profile(r).back().inward > 0;
   }
-  return detail::caps_from(work.heights, std::move(tops), pitched, work.height, options);
-}
-
-/// Short runs (bevels, jogs, pieces of curves) see too little: they follow a neighbour that they hardly turn from, or
-/// stand as walls, unless the scan clearly says otherwise.
-void lead_short_runs(const Polygon& polygon, Work& work, const Options& options) {
-  for (std::size_t r = 0; r < work.runs.size(); ++r) {
-    if (work.evidence[r].slices == 0 || detail::length_of(polygon, work.runs[r]) >= options.short_run) continue;
-    auto& profiles = work.choices[r].profiles;
-    const auto wall = std::ranges::find_if(profiles, [](const auto& p) { return p.back().inward == 0; });
-    if (wall != profiles.end()) std::rotate(profiles.begin(), wall, wall + 1);
-    for (const auto neighbour : detail::gentle_neighbours(polygon, work.runs, r, options)) {
-      if (detail::length_of(polygon, work.runs[neighbour]) < options.short_run) continue;
-      const auto lead = work.choices[neighbour].profiles.front();
-      if (lead.back().inward > 0) profiles.insert(profiles.begin(), lead);
-    }
-  }
+  return detail::caps_from(work.heights, tops, pitched, work.height, options);
 }
 
 /// Weighs the runs' candidates against each other and against the scan.
 void settle(Work& work, const Polygon& polygon, const Options& options) {
-  lead_short_runs(polygon, work, options);
-  work.caps = caps_of(work, polygon, options);
+  work.caps = caps_of(work, options);
   if (work.samples.empty()) return;
   work.chosen = detail::refine(polygon, work.runs, work.choices, work.samples, work.caps, options).chosen;
-  work.caps = caps_of(work, polygon, options);
+  work.caps = caps_of(work, options);
 }
 
 /// The plan of a part, one profile a run.

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -16,6 +17,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "mansard/geometry/mesh_part.hpp"
 #include "mansard/rays/detail/from_above.hpp"
 
 namespace mansard::rays {
@@ -92,6 +94,14 @@ auto look_at(RTCPointQueryFunctionArguments* at) -> bool {
   at->query->radius = radius;
   return true;
 }
+
+/// m: four times the root mean square of the waves that scanned walls have (0.06 and 0.06 m: `oblique-aerial` in
+/// docs/simulate.md). What juts out farther is a balcony, or eaves.
+constexpr double bulge_reach = 0.35;
+/// m: over a lower step a wall has no room for a wave that could be told from the roof's edge.
+constexpr double least_wall = 1;
+/// m: what is lower is no roof above the ground, and what differs by less may be one roof.
+constexpr double least_storey = 2;
 
 struct Release {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -173,21 +183,13 @@ struct Scene::Parts {
   auto tree() -> const Tree& {
     std::call_once(tree_once, [&] {
       if (hiding.empty()) tree_ = std::make_unique<const Tree>(mesh);
-      else tree_ = std::make_unique<const Tree>(remaining());
+      else tree_ = std::make_unique<const Tree>(geometry::without(mesh, hiding));
     });
     return *tree_;
   }
   auto above() -> const detail::FromAbove& {
     std::call_once(above_once, [&] { above_ = std::make_unique<const detail::FromAbove>(mesh); });
     return *above_;
-  }
-
- private:
-  [[nodiscard]] auto remaining() const -> geometry::Mesh {
-    geometry::Mesh out{mesh.vertices, {}};
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-      if (!hides(t)) out.triangles.push_back(mesh.triangles[t]);
-    return out;
   }
 };
 
@@ -307,6 +309,32 @@ auto Scene::seen_from_above(Point2 at) const -> std::optional<Seen> {
 auto Scene::top(Point2 at) const -> std::optional<double> {
   const auto seen = seen_from_above(at);
   return seen ? std::optional(seen->z) : std::nullopt;
+}
+
+auto Scene::top_inside_walls(Point2 at, double ground) const -> std::optional<double> {
+  thread_local std::vector<detail::FromAbove::Crossing> crossings;
+  parts_->above().crossings(at, crossings);
+  if (crossings.empty() || parts_->hides(crossings.front().triangle)) return std::nullopt;
+  const double top = crossings.front().z, foot = crossings.back().z;
+  if (crossings.size() < 3 || crossings.size() % 2 == 0 || foot - ground < least_storey || top - foot < least_wall)
+    return top;
+  double filled = 0;
+  for (std::size_t k = 1; k < crossings.size(); ++k) {
+    if (crossings[k].upward == crossings[k - 1].upward || parts_->hides(crossings[k].triangle)) return top;
+    if (k % 2 == 1) filled += crossings[k - 1].z - crossings[k].z;
+  }
+  if (2 * filled >= top - foot) return top;
+  constexpr double diagonal = std::numbers::sqrt2 / 2;
+  for (const Point2 way : {Point2{1, 0},
+                           {diagonal, diagonal},
+                           {0, 1},
+                           {-diagonal, diagonal},
+                           {-1, 0},
+                           {-diagonal, -diagonal},
+                           {0, -1},
+                           {diagonal, -diagonal}})
+    if (const auto beside = this->top(at + bulge_reach * way); beside && *beside < foot + least_storey) return foot;
+  return top;
 }
 
 auto Scene::nearest(Point3 to, double within) const -> std::optional<Nearest> { return nearest(to, within, {}); }

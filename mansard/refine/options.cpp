@@ -140,12 +140,6 @@ void add_setback(OptionList& list, Options::Setback& o) {
       .number("setback_max_rest", o.max_rest, "", share,
               "A step is proposed where a level and a line leave less than this share of the squares that one line "
               "leaves.")
-      .advanced(decision_17)
-      .number("setback_tower_reach", o.tower_reach, "m", length,
-              "Distance behind a step in which the share of raised samples is counted.")
-      .advanced(decision_17)
-      .number("setback_tower_share", o.tower_share, "", share,
-              "A step is proposed where at least this share of the samples behind it is higher; else it is a tower.")
       .advanced(decision_17);
 }
 
@@ -184,9 +178,6 @@ void add_search(OptionList& list, Options::Search& o) {
       .integer("search_max_sides", o.max_sides, "", count,
                "Of a part with more sides, this many, the longest, are tried.")
       .advanced(by_hand)
-      .number("search_min_difference", o.min_difference, "m", height,
-              "Differences up to this are noise and no reason to try another profile.")
-      .advanced(by_hand)
       .number("search_opposite_cosine", o.opposite_cosine, "", share,
               "Two sides are opposite where the negative cosine of their directions is greater than this.")
       .advanced("0.95 is an angle of about 18°; chosen by hand, not measured");
@@ -196,9 +187,6 @@ void add_sharpen(OptionList& list, Options::Sharpen& o) {
   list.integer("sharpen_rounds", o.rounds, "", count,
                "Maximum number of times that planes are refitted to the middle of their faces.")
       .advanced(by_hand)
-      .number("sharpen_flat_slope", o.flat_slope, "", slope,
-              "A roof with no greater slope (rise per run) is tried as a flat one.")
-      .advanced("0.07 is 4°, about the fall of a flat roof; docs/refine.md, not measured")
       .number(
           "sharpen_level_slope", o.level_slope, "", slope,
           "A roof with no greater slope (rise per run) becomes a flat one where its pitches explain little of what a "
@@ -275,19 +263,11 @@ void add_joins(OptionList& list, Options::Joins& o) {
       .number(
           "joins_recut_reach", o.recut_reach, "m", length,
           "Only differences nearer than this to the other part are evidence that two parts meet in the wrong place.")
-      .advanced(by_hand)
-      .integer("joins_rounds", o.rounds, "", count, "Maximum number of rounds of joining, cutting and cutting again.")
-      .advanced("what one step leaves behind may be what another needed; not measured")
-      .number("joins_round_gain", o.round_gain, "", share,
-              "Another round follows where the last one reduced the cost to at most this share.")
       .advanced(by_hand);
 }
 
 void add_wings(OptionList& list, Options::Wings& o) {
-  list.number("wings_min_length", o.min_length, "m", length,
-              "A line from a reflex corner through the part separates a wing where it is at least this long.")
-      .advanced(by_hand)
-      .number("wings_reflex_sine", o.reflex_sine, "", share,
+  list.number("wings_reflex_sine", o.reflex_sine, "", share,
               "A corner is reflex where the sine of its turn outwards is greater than this.")
       .advanced("0.35 is an angle of 20°; chosen by hand, not measured")
       .integer("wings_max_cuts", o.max_cuts, "", count,
@@ -303,27 +283,18 @@ void add_roughness(OptionList& list, Options::Cuts& o) {
       .number("cuts_smooth_rms", o.smooth_rms, "m", height,
               "A structure that fills its box is a roof where a simple surface leaves no greater root mean square.")
       .advanced("a roof with its clutter; not measured")
-      .number("cuts_smooth_by_height", o.smooth_by_height, "", share,
-              "A structure may leave a root mean square of this share of its height above the roof around it.")
-      .advanced("the clutter of a tower is larger; not measured")
       .number("cuts_fullness", o.fullness, "", share,
               "A structure fills its box where its mean height is at least this share of its maximum height.")
       .advanced(by_hand)
       .integer("cuts_fullness_part", o.fullness_part, "", {2, 1'000'000},
                "The maximum height of a structure is exceeded by one sample in this many.")
       .advanced(by_hand)
-      .number("cuts_hipped_min_area", o.hipped_min_area, "m²", area,
-              "A structure of at least this area is also compared with a roof of four hips.")
-      .advanced("a smaller crown passes for one; not measured")
       .number("cuts_fair_area", o.fair_area, "m²", area,
               "A structure of at least this area may have hips and smaller structures on it.")
       .advanced(by_hand)
       .number("cuts_fair_rms", o.fair_rms, "m", height,
               "A structure of at least refine.cuts_fair_area is a roof where a simple surface leaves no greater root "
               "mean square than this.")
-      .advanced(by_hand)
-      .number("cuts_plane_share", o.plane_share, "", share,
-              "A structure of at least refine.cuts_fair_area is a roof where this share of its samples is on a plane.")
       .advanced(by_hand)
       .number("cuts_large_area", o.large_area, "m²", area, "A structure of at least this area is not a tree.")
       .advanced(by_hand)
@@ -350,12 +321,6 @@ void add_cuts(OptionList& list, Options::Cuts& o) {
       .advanced(by_hand)
       .number("cuts_same_share", o.same_share, "", share,
               "Two cuts are one where at most this share of their cells is on different sides.")
-      .advanced(by_hand)
-      .number("cuts_shape_price", o.shape_price, "", share,
-              "An outline is ranked lower by this share of its gain for each of its rectangles.")
-      .advanced(by_hand)
-      .number("cuts_askew_price", o.askew_price, "", share,
-              "An outline along no edge of the part is ranked lower by this share of its gain.")
       .advanced(by_hand)
       .number("cuts_new_direction", o.new_direction, "rad", angle,
               "The walls of a structure are a direction of their own where they differ from all others by more than "

@@ -74,8 +74,6 @@ struct Options {
     double behind = 3;      ///< m
     double min_rise = 0.8;  ///< m
     double max_rest = 0.8;
-    double tower_reach = 1;  ///< m
-    double tower_share = 0.8;
   } setback;
 
   /// Planes moved to the samples on their own faces (refit).
@@ -97,14 +95,12 @@ struct Options {
     std::int64_t rounds = 2;
     double round_gain = 0.98;
     std::int64_t max_sides = 24;
-    double min_difference = 0.2;  ///< m
     double opposite_cosine = 0.95;
   } search;
 
   /// Planes as they were before the scan melted them (sharpen).
   struct Sharpen {
     std::int64_t rounds = 2;
-    double flat_slope = 0.07;
     double level_slope = 0.6;
     double level_gain = 0.8;
   } sharpen;
@@ -146,17 +142,14 @@ struct Options {
   struct Joins {
     /// m; straightened neighbours differ by up to 0.01 m: five times that
     static constexpr double touching = 0.05;
-    double quick_excess = 1.25;
+    double quick_excess = 1.15;
     static constexpr std::int64_t shared_faces = 8;  ///< a bound, so that joins which cannot pay are not tried
     double recut_reach = 1.5;                        ///< m
     static constexpr std::int64_t max_pieces = 64;   ///< a limit on the search
-    std::int64_t rounds = 2;
-    double round_gain = 0.95;
   } joins;
 
   /// Cuts where the edges of wings go on inside (wings, work).
   struct Wings {
-    double min_length = 1.5;  ///< m
     double reflex_sine = 0.35;
     std::int64_t max_cuts = 6;
   } wings;
@@ -168,20 +161,15 @@ struct Options {
     static constexpr std::int64_t max_count = 6;  ///< a limit on the search
     double crisp_rms = 0.15;                      ///< m
     double smooth_rms = 0.35;                     ///< m
-    double smooth_by_height = 0.12;
     double fullness = 0.73;
     std::int64_t fullness_part = 20;
-    double hipped_min_area = 16;  ///< m²
-    double fair_area = 30;        ///< m²
-    double fair_rms = 0.45;       ///< m
-    double plane_share = 0.7;
+    double fair_area = 30;   ///< m²
+    double fair_rms = 0.45;  ///< m
     double large_area = 80;  ///< m²
     double large_gain = 0.8;
     double line_gain = 0.15;
     double line_min_width = 1.25;  ///< m
     double same_share = 0.25;
-    double shape_price = 0.04;
-    double askew_price = 0.25;
     double new_direction = 0.14;                       ///< rad
     static constexpr std::int64_t max_directions = 4;  ///< a limit on the search
     double max_cells = 8000;
@@ -265,7 +253,6 @@ struct Options {
     double ridge_min_area = 30;         ///< m²
     double max_slope = 1.5;
     double model_share = 0.5;
-    static constexpr std::int64_t plane_rounds = 3;  ///< a limit on the search
   } surfaces;
 };
 

@@ -76,18 +76,12 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("thin_shortest", o.thin_shortest, "m", {0, 50},
               "Minimum length of an edge that can make a sliver or a needle.")
       .advanced("chosen by hand; not measured");
-  list.number("thin_overlap", o.thin_overlap, "m", {0, 50},
-              "Minimum length along which two edges must face each other to make a sliver.")
-      .advanced("chosen by hand; not measured");
   list.number("thin_parallel", o.thin_parallel, "rad", {0, 1.5}, "Maximum angle between two edges that make a sliver.")
       .advanced("reference implementation chordatlas: 0.3 rad");
   list.number("samples_per_area", o.samples_per_area, "1/m²", {0.01, 1000},
               "Height samples per area of a face, up to segment.samples.")
       .advanced("as dense as the reference implementation's 2 m grid is sparse: eight times as many; not measured");
   list.integer("minimum_samples", o.minimum_samples, "", {1, 10000}, "Minimum number of height samples per face.")
-      .advanced("chosen by hand; not measured");
-  list.integer("minimum_inside_samples", o.minimum_inside_samples, "", {1, 10000},
-               "Number of samples within the footprints from which a face's height is measured there alone.")
       .advanced("chosen by hand; not measured");
   list.number("surely_inside", o.surely_inside, "", {0, 1},
               "Share of a face within the footprints above which the face is inside even without mesh, and is not "
@@ -105,9 +99,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("smallest_part", o.smallest_part, "m²", {0, 1000},
               "Parts with less area than this are joined to a neighbour or left out.")
       .advanced("chosen by hand; not measured");
-  list.number("same_height", o.same_height, "m", {0, 100},
-              "Narrow parts within this height of their neighbour are part of its roof.")
-      .advanced("docs/decisions/0013");
   list.number("low_share", o.low_share, "", {0, 1},
               "Narrow parts of at least this share of their neighbour's height are part of its roof.")
       .advanced("docs/decisions/0013");

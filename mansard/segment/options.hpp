@@ -61,14 +61,11 @@ struct Options {
   // Slivers and needles (O7).
   double thin_run_turn = 0.1;  ///< tangent; half-edges that turn less make one run
   double thin_shortest = 0.2;  ///< m; runs shorter than that have no direction to speak of
-  double thin_overlap = 0.1;   ///< m; opposite runs must face each other along at least that
   double thin_parallel = 0.3;  ///< rad; opposite runs are parallel within this
 
   // What is measured of a face, and along an edge.
   double samples_per_area = 2.0;    ///< height samples per m² of a face
   std::size_t minimum_samples = 9;  ///< height samples per face, at least
-  std::size_t minimum_inside_samples =
-      3;                       ///< heights within the footprints, from which they alone tell a face's height
   double surely_inside = 0.8;  ///< of a face's area in the footprints: over this share it is inside though the mesh
                                ///< lacks it; from it on it is not peeled off
   /// m between samples along an edge, with height_measure = along; of the grid of places
@@ -81,7 +78,6 @@ struct Options {
 
   // From faces to parts.
   double smallest_part = 1.0;  ///< m²; smaller parts go to their neighbour, or out
-  double same_height = 2.0;    ///< m; strips within this of their neighbour's height are part of its roof …
   double low_share = 0.5;      ///< … as are those of at least this share of its height above ground
   double strip_level = 1.0;    ///< m; lower strips are buildings where heights within this of each other …
   double strip_share = 0.3;    ///< … are at least this share of all: a roof; a blurred wall has no level of its own

@@ -133,8 +133,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("untidy_height", o.untidy_height, "m", {0, 100},
               "Height above ground up to which cars and hedges hide the foot of a wall.")
       .advanced("chosen by hand; not measured");
-  list.number("setback_gap", o.setback_gap, "m", {0, 50}, "Maximum gap between the columns of one setback.")
-      .advanced("reference implementation chordatlas: 1.5 m");
   list.integer("setback_columns", o.setback_columns, "", {1, 1000}, "Minimum number of columns in a setback.")
       .advanced("reference implementation chordatlas: 2 m in columns of 0.2 m");
   list.number("gutter_rise", o.gutter_rise, "m", {0, 50},
@@ -274,9 +272,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("step_grain_length", o.step_grain_length, "m", {0, 1000},
               "Minimum total length of the footprint edges of one direction.")
       .advanced("chosen by hand; not measured");
-  list.number("step_grain_share", o.step_grain_share, "", {0, 1},
-              "Minimum share of a footprint's edges in a direction for roof steps to be looked for along it.")
-      .advanced("chosen by hand; not measured");
   list.number("step_band", o.step_band, "m", {0, 20}, "Maximum distance of a jump from the line of its roof step.")
       .advanced("chosen by hand; not measured");
   list.number("step_gap", o.step_gap, "m", {0, 50}, "Maximum gap in a roof step.")
@@ -306,8 +301,6 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("step_same_sine", o.step_same_sine, "", {0, 1},
               "Sine of the maximum angle between a roof step and a line that is the same.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_rest", o.step_rest, "m", {0, 100}, "Minimum length of a roof step beside which there is no wall.")
       .advanced("chosen by hand; not measured");
   return list;
 }

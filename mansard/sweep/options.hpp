@@ -64,7 +64,6 @@ struct Options {
   double wall_lower_share = 0.3;     ///< of the tallest wall of the column: what a lower one must have to be the foot
   double wall_share = 0.25;          ///< of the columns must have a wall; else the side stands at its gutter
   double untidy_height = 2.5;        ///< m above ground where cars and hedges hide the wall
-  double setback_gap = 1.5;          ///< m along the edge between columns of one setback
   std::size_t setback_columns = 10;  ///< columns of a setback, at least
   double gutter_rise = 1.0;          ///< m above the median gutter: the column is the end of a hip, not eaves
   double gutter_band = 0.5;          ///< m above the lowest sample: the gutter
@@ -124,7 +123,6 @@ struct Options {
   double step_grain_turn = 0.06;    ///< rad; edges that differ by less, or by that from a right angle, run alike
   double step_grain_edge = 1.0;     ///< m; shorter edges of a footprint tell no direction
   double step_grain_length = 8.0;   ///< m of edge that make a direction
-  double step_grain_share = 0.2;    ///< of a member's edges that make a direction its own
   double step_band = 0.4;           ///< m; jumps this near a line are of one step
   double step_gap = 1.25;           ///< m along it without a jump: noise, a chimney
   double step_wide_gap = 4.0;       ///< m where two roofs cross each other: the step changes its sign there
@@ -136,7 +134,6 @@ struct Options {
   double step_reach = 1.5;          ///< m beyond its ends to the wall or outline it runs up to
   double step_same_line = 0.75;     ///< m; a wall or a footprint's edge this near is the same line
   double step_same_sine = 0.2;      ///< … if it is turned by less
-  double step_rest = 2.0;           ///< m; what a wall beside it leaves of a step, if it is less, is dropped
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -80,7 +80,7 @@ void lower(std::vector<double>& floor, const Blob& blob, const Surface& surface,
     const auto at = grid.centre(cell);
     // Nor is a small building nothing but crown because one touches it.
     if (over_all) return std::isnan(surface.under[cell]);
-    return detail::is_inside(outline, at) &&
+    return geometry::contains(outline, at) &&
            std::ranges::none_of(hanging, [&](geometry::Point2 p) { return length(p - at) <= options.near_underside; });
   };
   for (const auto c : blob.cells) {
@@ -150,17 +150,6 @@ auto find(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline
   for (auto* list : {&out.triangles, &out.below}) {
     std::ranges::sort(*list);
     list->erase(std::ranges::unique(*list).begin(), list->end());
-  }
-  return out;
-}
-
-auto without(const geometry::Mesh& mesh, std::span<const std::uint32_t> triangles) -> geometry::Mesh {
-  geometry::Mesh out{mesh.vertices, {}};
-  out.triangles.reserve(mesh.triangles.size() - triangles.size());
-  std::size_t next = 0;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (next < triangles.size() && triangles[next] == t) ++next;
-    else out.triangles.push_back(mesh.triangles[t]);
   }
   return out;
 }

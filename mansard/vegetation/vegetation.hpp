@@ -65,9 +65,6 @@ struct Found {
                         std::span<const std::vector<geometry::Polygon>> footprints, const Options& options,
                         const base::Run& run = {}) -> Found;
 
-/// The mesh without those triangles.
-[[nodiscard]] auto without(const geometry::Mesh& mesh, std::span<const std::uint32_t> triangles) -> geometry::Mesh;
-
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 
 }  // namespace mansard::vegetation

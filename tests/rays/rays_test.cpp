@@ -52,6 +52,87 @@ TEST(Scene, sees_nothing_from_above_where_a_triangle_is_left_out) {
   EXPECT_FALSE(Scene(mesh, {0, 1, 2, 3}).cast({502, -298, 40}, {0, 0, -1}));
 }
 
+/// What a line of places (x, z) sweeps along 20 m of y; from left to right its front is above.
+auto swept(const std::vector<geometry::Point2>& line) -> geometry::Mesh {
+  geometry::Mesh mesh;
+  for (const auto at : line)
+    for (const double y : {-10.0, 10.0}) mesh.vertices.push_back({at.x, y, at.y});
+  for (std::uint32_t i = 0; i + 2 < mesh.vertices.size(); i += 2) {
+    mesh.triangles.push_back({i, i + 2, i + 3});
+    mesh.triangles.push_back({i, i + 3, i + 1});
+  }
+  return mesh;
+}
+
+/// A tower from x = 5 to 15, 24 m high, whose right wall waves by 0.15 m about x = 15.05, on a roof at z = 6.
+auto waving_tower() -> geometry::Mesh {
+  return swept({{-5, 0},
+                {0, 0},
+                {0, 6},
+                {5, 6},
+                {5, 24},
+                {14.9, 24},
+                {15.2, 18},
+                {14.9, 14},
+                {15.2, 10},
+                {15, 6},
+                {20, 6},
+                {20, 0},
+                {25, 0}});
+}
+
+TEST(Scene, sees_the_roof_below_a_wall_that_only_bulges_over_it) {
+  auto mesh = waving_tower();
+  for (const bool turned : {false, true}) {
+    if (turned)
+      for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
+    const Scene scene(mesh);
+    EXPECT_NEAR(*scene.top({15.1, 0.3}), 20, 1e-9);
+    EXPECT_NEAR(*scene.top_inside_walls({15.1, 0.3}, 0), 6, 1e-9);  // hollow over 7.3 of 14 m
+    EXPECT_NEAR(*scene.top_inside_walls({14.95, 0.3}, 0), 23, 1e-9);
+    EXPECT_NEAR(*scene.top_inside_walls({10, 0.3}, 0), 24, 1e-9);
+    EXPECT_NEAR(*scene.top_inside_walls({17, 0.3}, 0), 6, 1e-9);
+    EXPECT_FALSE(scene.top_inside_walls({30, 0.3}, 0));
+    // What is less than 2 m above the ground is no roof.
+    EXPECT_NEAR(*scene.top_inside_walls({15.1, 0.3}, 4.5), 20, 1e-9);
+  }
+}
+
+TEST(Scene, sees_what_juts_out_farther_than_walls_bulge) {
+  // A slab of 0.3 m, 1.2 m wide, and the same 0.3 m wide.
+  const auto with_slab = [](double width) {
+    return Scene(swept({{-5, 0},
+                        {0, 0},
+                        {0, 6},
+                        {5, 6},
+                        {5, 24},
+                        {15 + width, 24},
+                        {15 + width, 23.7},
+                        {15, 23.7},
+                        {15, 6},
+                        {20, 6},
+                        {20, 0},
+                        {25, 0}}));
+  };
+  EXPECT_NEAR(*with_slab(1.2).top_inside_walls({15.5, 0.3}, 0), 24, 1e-9);
+  EXPECT_NEAR(*with_slab(0.3).top_inside_walls({15.2, 0.3}, 0), 6, 1e-9);
+}
+
+TEST(Scene, sees_no_roof_below_a_wall_whose_fronts_do_not_alternate_or_that_is_left_out) {
+  auto mesh = waving_tower();
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  for (const auto& t : std::vector(mesh.triangles)) mesh.triangles.push_back(t);  // all of it 0.1 m higher, too
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const auto& v : std::vector(mesh.vertices)) mesh.vertices.push_back({v.x, v.y, v.z + 0.1});
+  for (std::uint32_t t = count; t < 2 * count; ++t)
+    for (auto& corner : mesh.triangles[t]) corner += first;
+  EXPECT_NEAR(*Scene(mesh).top_inside_walls({15.1, 0.3}, 0), 20.1, 1e-9);
+
+  mesh = waving_tower();
+  EXPECT_FALSE(Scene(mesh, {10, 11}).top_inside_walls({15.1, 0.3}, 0));            // the topmost
+  EXPECT_NEAR(*Scene(mesh, {14, 15}).top_inside_walls({15.1, 0.3}, 0), 20, 1e-9);  // one below
+}
+
 TEST(Scene, casts_in_metres_whatever_the_length_of_the_direction) {
   const Scene scene(two_storeys({}));
   const auto hit = scene.cast({2, 2, 0}, {0, 0, 100});
@@ -63,6 +144,7 @@ TEST(Scene, casts_in_metres_whatever_the_length_of_the_direction) {
 TEST(Scene, of_nothing_sees_nothing) {
   const Scene scene(geometry::Mesh{});
   EXPECT_FALSE(scene.top({0, 0}));
+  EXPECT_FALSE(scene.top_inside_walls({0, 0}, 0));
   EXPECT_FALSE(scene.cast({0, 0, 0}, {1, 0, 0}));
 }
 

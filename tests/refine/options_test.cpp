@@ -76,7 +76,7 @@ TEST(RefineOptions, reach_the_search) {
 
   const mansard::geometry::Polygon bent{{{0, 0}, {12, 0}, {12, 5}, {5, 5}, {5, 12}, {0, 12}}, {}};
   EXPECT_FALSE(detail::wings_of(bent, options).empty());
-  options.wings.min_length = 20;
+  options.wings.reflex_sine = 1;
   EXPECT_TRUE(detail::wings_of(bent, options).empty());
 }
 

@@ -7,6 +7,7 @@
 #include "mansard/base/statistics.hpp"
 #include "mansard/block/detail/near.hpp"
 #include "mansard/block/detail/neighbours.hpp"
+#include "mansard/geometry/mesh_part.hpp"
 
 namespace mansard::block::detail {
 namespace {
@@ -70,7 +71,7 @@ auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Po
   std::vector<Box2> boxes;
   for (const auto& shape : shapes) boxes.push_back(geometry::bounds(shape).grown(reach));
   const auto triangles =
-      candidates(mesh, std::vector(boxes.begin(), boxes.begin() + static_cast<std::ptrdiff_t>(count)));
+      geometry::triangles_near(mesh, std::vector(boxes.begin(), boxes.begin() + static_cast<std::ptrdiff_t>(count)));
 
   // Shapes sorted by x, so that those near a region are found without looking at all.
   std::vector<std::size_t> order(shapes.size());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mansard/base/run.hpp"
 #include "mansard/block/detail/neighbours.hpp"
 
 namespace mansard::block::detail {
@@ -108,71 +107,6 @@ auto Nearness::operator()(const PlanTriangle& t) const -> bool {
     for (std::size_t c = place(box.least.x, box_.least.x, columns_); all_far && c <= c1; ++c)
       all_far = cells_[r * columns_ + c] == Cell::far;
   return !all_far && exactly(t);
-}
-
-auto candidates(const geometry::Mesh& mesh, const std::vector<Box2>& regions)
-    -> std::vector<std::vector<std::uint32_t>> {
-  std::vector<std::vector<std::uint32_t>> out(regions.size());
-  Box2 all;
-  double sides = 0;
-  for (const auto& region : regions) {
-    if (region.empty()) continue;
-    all.add(region.least);
-    all.add(region.most);
-    sides += std::max(region.most.x - region.least.x, region.most.y - region.least.y);
-  }
-  if (all.empty()) return out;
-
-  // A grid of the regions with cells about their size; every triangle looks into the cells under its box.
-  const Point2 extent = all.most - all.least;
-  const double size = std::max({sides / static_cast<double>(regions.size()), extent.x / 512, extent.y / 512, 1.0});
-  const auto columns = static_cast<std::size_t>(extent.x / size) + 1,
-             rows = static_cast<std::size_t>(extent.y / size) + 1;
-  const auto range = [&](const Box2& box) {
-    const auto place = [size](double along, double least, std::size_t count) {
-      const double cell = std::floor((along - least) / size);
-      return cell <= 0 ? std::size_t{0} : std::min(static_cast<std::size_t>(cell), count - 1);
-    };
-    return std::array<std::size_t, 4>{place(box.least.x, all.least.x, columns), place(box.most.x, all.least.x, columns),
-                                      place(box.least.y, all.least.y, rows), place(box.most.y, all.least.y, rows)};
-  };
-  std::vector<std::vector<std::uint32_t>> cells(columns * rows);
-  for (std::size_t i = 0; i < regions.size(); ++i) {
-    if (regions[i].empty()) continue;
-    const auto [c0, c1, r0, r1] = range(regions[i]);
-    for (std::size_t r = r0; r <= r1; ++r)
-      for (std::size_t c = c0; c <= c1; ++c) cells[r * columns + c].push_back(static_cast<std::uint32_t>(i));
-  }
-
-  // In pieces of the mesh, each with its own lists, put together in the order of the pieces; some at a time, since all
-  // lists of a city would take as much memory as its mesh.
-  constexpr std::size_t piece = 1 << 14, at_a_time = 32;
-  const std::size_t pieces = (mesh.triangles.size() + piece - 1) / piece;
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(std::min(pieces, at_a_time));
-  for (std::size_t first = 0; first < pieces; first += at_a_time) {
-    base::parallel_for(std::min(at_a_time, pieces - first), [&](std::size_t k) {
-      std::vector<std::uint32_t> near;
-      found[k].clear();
-      const std::size_t begin = (first + k) * piece;
-      for (std::size_t t = begin; t < std::min(mesh.triangles.size(), begin + piece); ++t) {
-        const Box2 box = Box2::of(plan_of(mesh, mesh.triangles[t]));
-        if (!box.overlaps(all)) continue;
-        near.clear();
-        const auto [c0, c1, r0, r1] = range(box);
-        for (std::size_t r = r0; r <= r1; ++r)
-          for (std::size_t c = c0; c <= c1; ++c)
-            for (const std::uint32_t i : cells[r * columns + c])
-              if (regions[i].overlaps(box)) near.push_back(i);
-        std::ranges::sort(near);
-        near.erase(std::unique(near.begin(), near.end()), near.end());
-        for (const std::uint32_t i : near) found[k].emplace_back(i, static_cast<std::uint32_t>(t));
-      }
-    });
-    for (std::size_t k = 0; k < std::min(at_a_time, pieces - first); ++k)
-      for (const auto& [region, triangle] : found[k]) out[region].push_back(triangle);
-  }
-  for (auto& triangles : out) triangles.shrink_to_fit();
-  return out;
 }
 
 }  // namespace mansard::block::detail

@@ -48,8 +48,4 @@ class Nearness {
   std::vector<Cell> cells_;
 };
 
-/// For each region, the triangles whose box meets its box, ascending: candidates for a closer look.
-[[nodiscard]] auto candidates(const geometry::Mesh& mesh, const std::vector<geometry::Box2>& regions)
-    -> std::vector<std::vector<std::uint32_t>>;
-
 }  // namespace mansard::block::detail

@@ -30,10 +30,6 @@ auto edges_within(const Polygons& polygons, const Box2& reach) -> std::vector<Se
   return out;
 }
 
-auto holds(const Polygons& polygons, Point2 p) -> bool {
-  return std::ranges::any_of(polygons, [p](const Polygon& polygon) { return geometry::contains(polygon, p); });
-}
-
 auto total(const Polygons& polygons) -> double {
   double sum = 0;
   for (const auto& polygon : polygons) sum += geometry::area(polygon);
@@ -105,8 +101,8 @@ auto are_near(const Polygons& a, const Polygons& b, double touch) -> bool {
       if (const double apart = distance(edge, other); apart == 0 || apart < touch) return true;
     }
   }
-  return std::ranges::any_of(a, [&b](const Polygon& p) { return holds(b, p.outer.front()); }) ||
-         std::ranges::any_of(b, [&a](const Polygon& p) { return holds(a, p.outer.front()); });
+  return std::ranges::any_of(a, [&b](const Polygon& p) { return geometry::contains(b, p.outer.front()); }) ||
+         std::ranges::any_of(b, [&a](const Polygon& p) { return geometry::contains(a, p.outer.front()); });
 }
 
 auto groups_of(const std::vector<Box2>& boxes, const ShapeOf& shape_of, double touch)

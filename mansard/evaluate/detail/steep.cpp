@@ -8,8 +8,8 @@
 
 #include "mansard/base/run.hpp"
 #include "mansard/geometry/angles.hpp"
-#include "mansard/geometry/box_index.hpp"
 #include "mansard/geometry/change.hpp"
+#include "mansard/geometry/mesh_part.hpp"
 
 namespace mansard::evaluate::detail {
 namespace {
@@ -34,26 +34,6 @@ struct Axes {
 auto drawn(const model::ModelFace& face, const Axes& axes) -> base::Result<std::vector<geometry::Polygon>> {
   return geometry::make_valid(
       geometry::oriented(geometry::polygon_of(face.loops, [&](Point3 p) { return axes.on(p); })));
-}
-
-/// Of each box the triangles whose boxes in plan meet it, ascending.
-auto triangles_near(const std::vector<geometry::Box2>& boxes, const geometry::Mesh& scan)
-    -> std::vector<std::vector<std::uint32_t>> {
-  std::vector<std::vector<std::uint32_t>> out(boxes.size());
-  const geometry::BoxIndex index(boxes);
-  constexpr std::size_t piece = 1 << 16;
-  const std::size_t pieces = (scan.triangles.size() + piece - 1) / piece;
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(pieces);
-  base::parallel_for(pieces, [&](std::size_t k) {
-    for (std::size_t t = k * piece; t < std::min(scan.triangles.size(), (k + 1) * piece); ++t) {
-      geometry::Box2 box;
-      for (const auto v : scan.triangles[t]) box.add(xy(scan.vertices[v]));
-      for (const auto one : index.overlapping(box)) found[k].emplace_back(one, static_cast<std::uint32_t>(t));
-    }
-  });
-  for (const auto& some : found)
-    for (const auto& [one, triangle] : some) out[one].push_back(triangle);
-  return out;
 }
 
 auto around(const SteepPlane& steep) -> geometry::Box2 {
@@ -101,7 +81,7 @@ auto carried(std::span<const SteepPlane> planes, const geometry::Mesh& scan) -> 
   std::vector<geometry::Box2> boxes;
   boxes.reserve(planes.size());
   for (const auto& one : planes) boxes.push_back(around(one));
-  const auto near = triangles_near(boxes, scan);
+  const auto near = geometry::triangles_near(scan, boxes);
   std::vector<base::Result<double>> out(planes.size(), 0.0);
   base::parallel_for(planes.size(), [&](std::size_t i) { out[i] = carried_by(planes[i], near[i], scan); });
   return out;

@@ -15,6 +15,7 @@
 #include "mansard/formats/json/json_text.hpp"
 #include "mansard/formats/terrain/terrain_glb.hpp"
 #include "mansard/geometry/box_index.hpp"
+#include "mansard/geometry/mesh_part.hpp"
 
 namespace mansard::formats::detail {
 namespace {
@@ -24,28 +25,6 @@ using geometry::Box3;
 using geometry::Mesh;
 using geometry::Point2;
 using geometry::Point3;
-
-/// The triangles of a list, with their own corners.
-auto part_of(const Mesh& mesh, std::span<const std::uint32_t> triangles) -> Mesh {
-  Mesh out;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> numbers;  // of corners, by their number in the whole
-  for (const auto t : triangles)
-    for (const auto v : mesh.triangles[t]) numbers.emplace_back(v, 0);
-  std::ranges::sort(numbers);
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  for (auto& [v, number] : numbers) {
-    number = static_cast<std::uint32_t>(out.vertices.size());
-    out.vertices.push_back(mesh.vertices[v]);
-  }
-  for (const auto t : triangles) {
-    geometry::Triangle corners{};
-    for (std::size_t i = 0; i < 3; ++i)
-      corners[i] =
-          std::ranges::lower_bound(numbers, mesh.triangles[t][i], {}, [](const auto& n) { return n.first; })->second;
-    out.triangles.push_back(corners);
-  }
-  return out;
-}
 
 // ---- levels of detail
 
@@ -241,9 +220,9 @@ class TerrainTiles {
     if (triangles.size() <= most_) {
       std::ranges::sort(triangles);
       const auto shown = std::ranges::lower_bound(triangles, shown_) - triangles.begin();
-      if (auto done = show(part_of(all_, triangles.first(static_cast<std::size_t>(shown))), out); !done)
+      if (auto done = show(geometry::part_of(all_, triangles.first(static_cast<std::size_t>(shown))), out); !done)
         return done.failure();
-      out.mesh = part_of(all_, triangles);
+      out.mesh = geometry::part_of(all_, triangles);
       return out;
     }
     JsonText json;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mansard/geometry/mesh_part.hpp"
 #include "mansard/pipeline/detail/block_run.hpp"
 
 namespace mansard::pipeline::detail {
@@ -15,7 +16,7 @@ class Shown {
       : mesh_(block.mesh, crowns.below), whole_block_(block) {
     if (crowns.below.empty()) return;
     cleared_ = block;
-    cleared_->mesh = vegetation::without(block.mesh, crowns.triangles);
+    cleared_->mesh = geometry::without(block.mesh, crowns.triangles);
     whole_.emplace(block.mesh);
   }
   Shown(const Shown&) = delete;

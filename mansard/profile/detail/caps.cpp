@@ -7,24 +7,13 @@
 #include "mansard/base/statistics.hpp"
 
 namespace mansard::profile::detail {
-namespace {
 
-/// The height under which that share of the runs' length ends.
-auto common_top(std::vector<ProfileTop>& tops, double share) -> std::optional<double> {
-  if (tops.empty()) return std::nullopt;
-  std::ranges::sort(tops, {}, &ProfileTop::height);
-  return base::weighted_percentile_of_sorted(tops, share, &ProfileTop::height, &ProfileTop::length);
-}
-
-}  // namespace
-
-auto caps_from(std::span<const double> heights, std::vector<ProfileTop> tops, bool pitched, double assumed,
+auto caps_from(std::span<const double> heights, std::span<const double> tops, bool pitched, double assumed,
                const Options& o) -> std::vector<double> {
-  const auto top = common_top(tops, o.cap_top_share);
+  const auto top = tops.empty() ? std::nullopt : std::optional(std::ranges::max(tops));
   if (heights.empty()) return {std::max(o.minimum_height, pitched && top ? *top + o.cap_clear : assumed)};
 
-  const double median = base::percentile_of_sorted(heights, 0.5),
-               high = base::percentile_of_sorted(heights, o.cap_high),
+  const double median = base::percentile_of_sorted(heights, 0.5), high = heights.back(),
                ridge = base::percentile_of_sorted(heights, o.cap_ridge);
   std::vector<double> wanted;
   if (pitched) {

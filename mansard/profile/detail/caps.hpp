@@ -7,15 +7,10 @@
 
 namespace mansard::profile::detail {
 
-/// The top of one run's profile and how long the run is, metres.
-struct ProfileTop {
-  double height = 0, length = 0;
-};
-
 /// Candidates, the likeliest first: none nearer to an earlier one than cap_distinct, all within `heights` (sorted) and
-/// above 0. `pitched`: some profile has a roof, whose own closing is likelier than a flat top. With no heights: the
-/// profiles' top, or `assumed`.
-[[nodiscard]] auto caps_from(std::span<const double> heights, std::vector<ProfileTop> tops, bool pitched,
+/// above 0. `tops`: those of the runs' profiles, m. `pitched`: some profile has a roof, whose own closing is likelier
+/// than a flat top. With no heights: the profiles' top, or `assumed`.
+[[nodiscard]] auto caps_from(std::span<const double> heights, std::span<const double> tops, bool pitched,
                              double assumed, const Options& options = {}) -> std::vector<double>;
 
 }  // namespace mansard::profile::detail

@@ -45,13 +45,12 @@ auto slope_of(std::span<const SliceColumns> slices, std::size_t begin, std::size
 
 }  // namespace
 
-auto columns_of(std::span<const Piece> pieces, const Climb& climb, const Sample& sample, double base,
-                std::optional<double> wall, const Options& o) -> SliceColumns {
+auto columns_of(std::span<const Piece> pieces, const Sample& sample, double base, std::optional<double> wall,
+                const Options& o) -> SliceColumns {
   // The far wall and what leans over it belong to another edge.
   const double depth = sample.reach > o.far_wall_from ? sample.reach - o.far_wall : sample.reach;
   SliceColumns columns{sample.along, {}, wall, 0, 0};
   columns.heights.assign(static_cast<std::size_t>(std::max(0.0, depth) / o.column_width), hole);
-  const double sky = climb.top() + o.sky_margin;
   for (const Piece& piece : pieces) {
     const double u0 = std::min(piece.low.inward, piece.high.inward), u1 = std::max(piece.low.inward, piece.high.inward);
     if (u1 <= 0 || u1 == u0) continue;
@@ -59,7 +58,7 @@ auto columns_of(std::span<const Piece> pieces, const Climb& climb, const Sample&
     auto b = static_cast<std::size_t>(std::max(0.0, std::ceil(u0 / o.column_width - 0.5)));
     for (; b < columns.heights.size() && middle(b, o) <= u1; ++b) {
       const double height = piece.low.height + slope * (middle(b, o) - piece.low.inward);
-      if (height <= sky && !(height - base <= columns.heights[b])) columns.heights[b] = height - base;
+      if (!(height - base <= columns.heights[b])) columns.heights[b] = height - base;
     }
   }
   return columns;
@@ -173,7 +172,6 @@ auto find_setback(std::span<const SliceColumns> slices, const Options& o) -> std
   const auto [low, high] = std::minmax_element(begin, end);
   if (*high - *low > o.setback_level) return std::nullopt;
   const Setback setback{static_cast<double>(wall) * o.column_width, base::median(std::vector<double>(begin, end))};
-  if (setback.height < o.setback_height) return std::nullopt;
 
   std::size_t agreeing = 0;
   for (const auto& slice : slices) {

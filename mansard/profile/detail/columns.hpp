@@ -22,7 +22,7 @@ struct SliceColumns {
 };
 
 /// The topmost surface under the climb's highest point: what hangs above (trees, debris) is left out.
-[[nodiscard]] auto columns_of(std::span<const Piece> pieces, const Climb& climb, const Sample& sample, double base,
+[[nodiscard]] auto columns_of(std::span<const Piece> pieces, const Sample& sample, double base,
                               std::optional<double> wall, const Options& options = {}) -> SliceColumns;
 
 /// Sets `first` and `last` of every slice: columns belong to the run while the surface around them rises inward and

@@ -158,8 +158,7 @@ auto supported(RoofLine line, std::span<const SliceColumns> slices, double toler
         if (u < from || u > to || std::isnan(slice.heights[b])) continue;
         const double height = height_on(line, u);
         ++looked;
-        const double wide = (height < o.low_height ? o.low_tolerance : 1) * tolerance;
-        near += std::abs(slice.heights[b] - height) <= wide ? 1 : 0;
+        near += std::abs(slice.heights[b] - height) <= tolerance ? 1 : 0;
       }
       agreeing += looked > 0 && 2 * near >= looked ? 1 : 0;
     }
@@ -187,12 +186,11 @@ auto profile_from(const RoofLine& line, const Options& o) -> model::Profile {
   std::vector<Pitch> pitches;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const double run = line[i + 1].inward - line[i].inward;
-    double slope = std::max(0.0, line[i + 1].height - line[i].height) / run;
+    const double slope = std::max(0.0, line[i + 1].height - line[i].height) / run;
     if (slope > steep) {  // a wall that the scan has blurred: upright at its middle, between its neighbours' pitches
       if (!pitches.empty()) pitches.back().end = line[i].inward + run / 2;
       continue;
     }
-    if (slope < o.level_slope) slope = 0;
     pitches.push_back({line[i + 1], slope, line[i + 1].inward});
   }
   while (!pitches.empty() && pitches.back().slope == 0) pitches.pop_back();

@@ -166,7 +166,7 @@ auto look_over(const rays::Scene& mesh, const Polygon& polygon, double base, con
     for (auto i = static_cast<std::int64_t>(std::ceil(box.least.x / grid)); i <= columns; ++i) {
       const Point2 at{static_cast<double>(i) * grid, static_cast<double>(j) * grid};
       if (!geometry::contains(polygon, at)) continue;
-      if (const auto z = mesh.top(at)) samples.push_back({at, *z - base});
+      if (const auto z = mesh.top_inside_walls(at, base)) samples.push_back({at, *z - base});
     }
   }
   return samples;

@@ -137,4 +137,24 @@ auto FromAbove::operator()(Point2 at) const -> std::optional<Seen> {
   return best;
 }
 
+void FromAbove::crossings(Point2 at, std::vector<Crossing>& out) const {
+  out.clear();
+  if (flat_.empty() || !box_.contains(at)) return;
+  const std::size_t cell = cell_of(at);
+  for (std::size_t k = start_[cell]; k < start_[cell + 1]; ++k) {
+    const auto& [west, south, east, north, top, triangle] = flat_[inside_[k]];
+    if (at.x < west || at.x > east || at.y < south || at.y > north) continue;
+    const auto& t = mesh_->triangles[triangle];
+    const Point3 a = mesh_->vertices[t[0]], b = mesh_->vertices[t[1]], c = mesh_->vertices[t[2]];
+    if (!holds({xy(a), xy(b), xy(c)}, at)) continue;
+    out.push_back({height(a, b, c, at), geometry::orientation(xy(a), xy(b), xy(c)) > 0, triangle});
+  }
+  std::ranges::sort(out, [](const Crossing& a, const Crossing& b) {
+    return a.z != b.z ? a.z > b.z : a.upward != b.upward ? a.upward : a.triangle < b.triangle;
+  });
+  const auto again =
+      std::ranges::unique(out, [](const Crossing& a, const Crossing& b) { return a.z == b.z && a.upward == b.upward; });
+  out.erase(again.begin(), again.end());
+}
+
 }  // namespace mansard::rays::detail

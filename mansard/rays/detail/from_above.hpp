@@ -25,6 +25,15 @@ class FromAbove {
   };
   [[nodiscard]] auto operator()(geometry::Point2 at) const -> std::optional<Seen>;
 
+  /// A place where a vertical line crosses the mesh.
+  struct Crossing {
+    double z = 0;
+    bool upward = false;  ///< whether the triangle's front is above
+    std::uint32_t triangle = 0;
+  };
+  /// All crossings, the topmost first; one of those at the same height and the same way, as on a common edge.
+  void crossings(geometry::Point2 at, std::vector<Crossing>& out) const;
+
  private:
   /// One coordinate of the grid: cells of equal size from `least` on.
   struct Axis {

@@ -68,11 +68,6 @@ class Pieces {
     }
   }
 
-  [[nodiscard]] auto cost() const -> double {
-    double cost = 0;
-    for (const auto& piece : pieces_) cost += piece.roof.cost + work_.options().part_price;
-    return cost;
-  }
   [[nodiscard]] auto pieces() && -> std::vector<Piece> { return std::move(pieces_); }
 
  private:
@@ -186,13 +181,10 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
   }
   if (options.effort == Effort::parts) {
     Pieces search(std::move(pieces), work);
-    for (std::int64_t round = 0; round < options.joins.rounds; ++round) {
-      const double before = search.cost();
-      search.join();
-      search.split();
-      search.cut_anew();
-      if (search.cost() > options.joins.round_gain * before) break;
-    }
+    search.join();
+    search.split();
+    search.cut_anew();
+    search.join();  // what was cut may fit its neighbours now
     pieces = std::move(search).pieces();
   }
   base::parallel_for(pieces.size(), [&](std::size_t i) { pieces[i] = work.finished(std::move(pieces[i])); });

@@ -27,8 +27,7 @@ struct Cut {
   bool step = true;
   Mask mask;
   carve::Errors errors;
-  double gain = 0;    ///< m²·m²
-  double ranked = 0;  ///< the gain, less of outlines that are complicated or askew
+  double gain = 0;  ///< m²·m²
 };
 
 /// Area over the longer side of its box along the frame, metres.
@@ -46,17 +45,13 @@ auto coherent(const carve::Raster& raster, const Cut& cut, const Options& option
   if (!inside)
     for (std::size_t k = 0; k < of_it.size(); ++k)
       of_it[k] = raster.state[k] != carve::Cell::outside && !cut.mask[k] ? 1 : 0;
-  const double mean = std::abs(inside ? e.inside_mean : e.outside_mean);
   const Mask core = carve::shrunk(raster, of_it, options.samples.melt);
-  const carve::Fit fit = carve::fit_of(raster, core, cut.frame, o.smooth_rms, options.surfaces);
+  const double rms = carve::unevenness_of(raster, core, cut.frame, options.surfaces);
   const double area = (inside ? e.inside : e.outside).count * raster.cell_area();
-  const double tolerance = std::max(area >= o.fair_area ? o.fair_rms : o.smooth_rms, o.smooth_by_height * mean);
-  if (fit.rms <= tolerance && (fit.rms <= o.crisp_rms || area >= o.fair_area ||
-                               carve::fullness_of(raster, of_it, o.fullness_part) >= o.fullness))
+  const bool fair = area >= o.fair_area;
+  if (rms <= (fair ? o.fair_rms : o.smooth_rms) &&
+      (rms <= o.crisp_rms || fair || carve::fullness_of(raster, of_it, o.fullness_part) >= o.fullness))
     return true;
-  const bool may_be_hipped = inside && area >= o.hipped_min_area && area < o.large_area;
-  if (may_be_hipped && carve::hipped_error(raster, core, cut.polygon) <= o.crisp_rms) return true;
-  if (area >= o.fair_area && fit.near >= o.plane_share) return true;
   return area >= o.large_area && cut.gain >= o.large_gain * e.whole.model * raster.cell_area();
 }
 
@@ -71,21 +66,20 @@ class Cuts {
     const double piece = geometry::area(polygon);
     if (piece < options_.least_area || area_ - piece < options_.least_area) return;
     if (shape > 0 && mean_width(polygon, frame) < o.min_width) return;
-    Cut cut{polygon, frame, shape, step, carve::cells_in(polygon, raster_), {}, 0, 0};
+    Cut cut{polygon, frame, shape, step, carve::cells_in(polygon, raster_), {}, 0};
     cut.errors = carve::errors_of(raster_, cut.mask, frame, options_.surfaces);
     const double gain = carve::gain_of(cut.errors, options_.surfaces);
     cut.gain = gain * raster_.cell_area();
     if (!(cut.gain >= least_gain_)) return;
     if (shape == 0 && gain < o.line_gain * cut.errors.whole.best) return;
     if (shape > 0 && !coherent(raster_, cut, options_)) return;
-    cut.ranked = cut.gain * (1 - o.shape_price * shape) * (frame.of_part ? 1 : 1 - o.askew_price);
     found_.push_back(std::move(cut));
   }
 
   /// Best first, none nearly the same as a better one.
   [[nodiscard]] auto best() && -> std::vector<Cut> {
     std::ranges::stable_sort(found_, {}, [](const Cut& cut) { return cut.polygon.outer; });
-    rank(found_, [](const Cut& cut) { return -cut.ranked; });
+    rank(found_, [](const Cut& cut) { return -cut.gain; });
     std::vector<Cut> out;
     for (Cut& cut : found_) {
       if (std::ssize(out) >= options_.cuts.max_count) break;

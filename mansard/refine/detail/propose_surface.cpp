@@ -72,33 +72,6 @@ auto plane_of(const Moments& m) -> geometry::FittedPlane {
   return m.plane({});
 }
 
-/// From the median height to a plane, taking in what comes near it, closer each time.
-auto share_on_plane(const Raster& raster, const std::vector<std::uint8_t>& mask, double tolerance,
-                    const Options::Surfaces& options) -> double {
-  std::vector<float> heights;
-  for (std::size_t k = 0; k < mask.size(); ++k)
-    if (mask[k] && raster.state[k] == Cell::seen) heights.push_back(raster.z[k]);
-  if (heights.empty()) return 0;
-  const auto seen = static_cast<double>(heights.size());
-  geometry::FittedPlane plane{base::median(std::move(heights)), {}};
-  double share = 0;
-  for (std::int64_t round = options.plane_rounds; round-- > 0;) {
-    const double near = std::ldexp(tolerance, static_cast<int>(round));
-    Moments m;
-    for (int j = 0; j < raster.rows; ++j)
-      for (int i = 0; i < raster.columns; ++i) {
-        const std::size_t k = raster.at(i, j);
-        const double x = raster.spacing * i, y = raster.spacing * j;
-        if (mask[k] && raster.state[k] == Cell::seen && std::abs(raster.z[k] - plane.at(x, y)) <= near)
-          m.add(x, y, raster.z[k], 0);
-      }
-    if (m.count < 1) return 0;
-    share = m.count / seen;
-    plane = plane_of(m);
-  }
-  return share;
-}
-
 }  // namespace
 
 void Moments::add(double px, double py, double pz, double pr) {
@@ -187,17 +160,17 @@ auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, cons
   return out;
 }
 
-auto fit_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges, double tolerance,
-            const Options::Surfaces& options) -> Fit {
+auto unevenness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges,
+                   const Options::Surfaces& options) -> double {
   const Moments inside = moments_of(raster, mask).inside;
-  if (inside.count < 1) return {infinite, 0};
+  if (inside.count < 1) return infinite;
   double error = plain_error(inside);
   if (inside.count > options.ridge_min_area / raster.cell_area())
     for (const geometry::Point2 along : {ridges.axis, geometry::left_of(ridges.axis)}) {
       const Bins bins = bins_of(raster, mask, along, options.bin);
       error = std::min(error, ridge_over(bins.inside, bins.first, options));
     }
-  return {std::sqrt(error / inside.count), share_on_plane(raster, mask, tolerance, options)};
+  return std::sqrt(error / inside.count);
 }
 
 auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, std::int64_t part) -> double {
@@ -212,19 +185,6 @@ auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, st
   const auto rank = static_cast<std::size_t>(std::ssize(residuals) * (part - 1) / part);
   const float high = base::ranked(std::move(residuals), rank);
   return high > 0 ? std::abs(mean) / high : 1;
-}
-
-auto hipped_error(const Raster& raster, const std::vector<std::uint8_t>& mask, const geometry::Polygon& polygon)
-    -> double {
-  geometry::LineSums m;
-  for (int j = 0; j < raster.rows; ++j)
-    for (int i = 0; i < raster.columns; ++i) {
-      const std::size_t k = raster.at(i, j);
-      if (!mask[k] || raster.state[k] != Cell::seen) continue;
-      m.add(geometry::boundary_distance(polygon, raster.frame.back({raster.x(i), raster.y(j)})), raster.z[k]);
-    }
-  if (m.weight < 1 || m.spread() <= 0 || m.joint() < 0) return infinite;
-  return std::sqrt(m.residual() / m.weight);
 }
 
 }  // namespace mansard::refine::detail::carve

@@ -53,21 +53,13 @@ struct Errors {
   return gain_of(errors.inside, errors.outside, errors.whole, options);
 }
 
-/// How smooth a set of cells is.
-struct Fit {
-  double rms = 0;   ///< m, that the best level, plane, lifted model or (on large sets) ridge leaves
-  double near = 0;  ///< share of cells within `tolerance` of a plane that most of them agree on
-};
-[[nodiscard]] auto fit_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges,
-                          double tolerance, const Options::Surfaces& options) -> Fit;
+/// How uneven a set of cells is: the root mean square, m, that the best level, plane, lifted model or (on large sets)
+/// ridge leaves.
+[[nodiscard]] auto unevenness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges,
+                                 const Options::Surfaces& options) -> double;
 
 /// The mean residual over the one that one cell in `part` exceeds: 1 for a box, less for a dome.
 [[nodiscard]] auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, std::int64_t part)
     -> double;
-
-/// Root mean square, m, that a roof hipped on all sides of the polygon, of any pitch, leaves of the cells; infinite
-/// where it would be a funnel. The raster is one along the axes.
-[[nodiscard]] auto hipped_error(const Raster& raster, const std::vector<std::uint8_t>& mask,
-                                const geometry::Polygon& polygon) -> double;
 
 }  // namespace mansard::refine::detail::carve

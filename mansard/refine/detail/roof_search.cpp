@@ -107,7 +107,7 @@ auto misfit_by_side(const Judged& judged, const Judge& judge) -> std::vector<dou
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     const auto cell = site.cells[i];
     const double difference = std::abs(judged.view.z[cell] - site.measured.z[cell]);
-    if (!(difference > judge.options().search.min_difference)) continue;
+    if (std::isnan(difference)) continue;
     if (const auto nearest = nearest_eaves(edges, site.centres[i]))
       out[nearest->profile] +=
           site.weight[i] * difference * std::min(difference, judge.options().robust) * site.cell_area;

@@ -77,11 +77,10 @@ auto sharpened(Judged judged, const Judge& judge) -> Judged {
     judged = std::move(*next);
   }
   judged = uncut(std::move(judged), judge, most);
-  if (!nearly_level(judged.plan, std::max(options.sharpen.flat_slope, options.sharpen.level_slope))) return judged;
+  if (!nearly_level(judged.plan, options.sharpen.level_slope)) return judged;
   auto flat = judge(levelled(judged.plan, judge.site(), options.forms));
   if (!flat) return judged;
-  const bool drained = nearly_level(judged.plan, options.sharpen.flat_slope) && flat->cost <= most;
-  return drained || explain_little(judged, *flat, judge) ? std::move(*flat) : judged;
+  return explain_little(judged, *flat, judge) ? std::move(*flat) : judged;
 }
 
 }  // namespace mansard::refine::detail

@@ -159,7 +159,8 @@ auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Op
   Site site{polygon, base, grid_over(polygon, spacing_over(polygon, options)), {}, {}, {}, {}, 0, {}, {}, {}, {}};
   auto& grid = site.measured;
   each_inside(polygon, grid, [&](std::size_t column, std::size_t row) {
-    if (const auto z = mesh.top(grid.centre(column, row))) grid.z[row * grid.columns + column] = *z - base;
+    if (const auto z = mesh.top_inside_walls(grid.centre(column, row), base))
+      grid.z[row * grid.columns + column] = *z - base;
   });
   finish(site, options);
   return site;
@@ -188,7 +189,7 @@ auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene
     if (const auto cell = in_a.of(column, row)) z = a.measured.z[*cell];
     if (const auto cell = in_b.of(column, row); cell && std::isnan(z)) z = b.measured.z[*cell] + (b.base - a.base);
     if (!std::isnan(z)) return;
-    if (const auto top = mesh.top(grid.centre(column, row))) z = *top - a.base;
+    if (const auto top = mesh.top_inside_walls(grid.centre(column, row), a.base)) z = *top - a.base;
   });
   finish(out, options);
   return out;

@@ -26,7 +26,7 @@ void each_ring(const Polygon& polygon, See see) {
 }
 
 /// From a reflex corner straight on through the part to its boundary.
-auto line_on(const Polygon& part, Point2 from, Point2 direction, double shortest) -> std::optional<Segment2> {
+auto line_on(const Polygon& part, Point2 from, Point2 direction) -> std::optional<Segment2> {
   double nearest = -1;
   each_ring(part, [&](const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -37,7 +37,7 @@ auto line_on(const Polygon& part, Point2 from, Point2 direction, double shortest
       if (t > same_place && s >= -same_place && s <= 1 + same_place && (nearest < 0 || t < nearest)) nearest = t;
     }
   });
-  if (nearest < shortest) return std::nullopt;
+  if (nearest < 0) return std::nullopt;
   return Segment2{from, from + nearest * direction};
 }
 
@@ -88,9 +88,9 @@ auto wings_of(const Polygon& part, const Options& all) -> std::vector<Wing> {
       const Point2 along = direction(i);
       std::vector<Segment2> lines;
       if (reflex(along, direction(i + 1)))
-        if (const auto line = line_on(part, ring[(i + 1) % n], along, options.min_length)) lines.push_back(*line);
+        if (const auto line = line_on(part, ring[(i + 1) % n], along)) lines.push_back(*line);
       if (reflex(direction(i + n - 1), along))
-        if (const auto line = line_on(part, ring[i], -1 * along, options.min_length)) lines.push_back(*line);
+        if (const auto line = line_on(part, ring[i], -1 * along)) lines.push_back(*line);
       if (lines.empty()) continue;
       const auto longest = std::ranges::max_element(lines, {}, length_of);
       const auto add = [&](const std::vector<Polygon>& pieces) {

@@ -77,7 +77,7 @@ auto sliver_at(const Run& one, const Run& other, const Options& o) -> std::optio
   const auto aside = [&](Point2 p) { return cross(a, p - one.segment.start) / la; };
   const double from = along(other.segment.end), to = along(other.segment.start);
   const double low = std::max(0.0, from), high = std::min(la, to);
-  if (high - low < o.thin_overlap) return std::nullopt;
+  if (!(high > low)) return std::nullopt;
   const auto off = [&](double t) {
     const double s = (t - from) / (to - from);
     return (1 - s) * aside(other.segment.end) + s * aside(other.segment.start);

@@ -98,7 +98,6 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
     const std::vector<Point2> points = spread(ring, arrangement.faces[f].area, options);
     std::vector<std::size_t> hits(near.size(), 0);
     std::size_t inside = 0;
-    std::vector<double> inside_heights;
     for (const Point2 p : points) {
       bool in = false;
       for (std::size_t i = 0; i < near.size(); ++i)
@@ -106,10 +105,7 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
       const auto z = mesh.top(p);
       if (z) samples.heights.push_back(*z);
       if (in) ++inside;
-      if (in && z) inside_heights.push_back(*z);
     }
-    // A face that reaches over the footprints is judged by the part under them: how much that is, gis_ratio asks.
-    if (inside_heights.size() >= options.minimum_inside_samples) samples.heights = std::move(inside_heights);
     std::ranges::sort(samples.heights);
     const auto total = static_cast<double>(points.size());
     face.gis_share = static_cast<double>(inside) / total;

@@ -182,7 +182,7 @@ void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidenc
     const double own = height_of(arrangement, evidence, members), ground = evidence.ground[members.front()];
     const double next = into ? height_of(arrangement, evidence, faces.at(*into)) : own;
     const bool apart = into && area >= o.smallest_part && reaches_outside(arrangement, members, label_of_face) &&
-                       next - own > o.same_height && own - ground < o.low_share * (next - ground);
+                       own - ground < o.low_share * (next - ground);
     if (apart && !is_blurred_wall(arrangement, evidence, members, ground, o)) {
       kept.insert(label);
       continue;

@@ -192,10 +192,10 @@ void drop_clutter(const std::vector<Column>& columns, Group& used, double tidy) 
   std::erase_if(used, [&](std::size_t k) { return columns[k].high < tidy; });
 }
 
-auto split_at_gaps(const Group& group, double gap, const Options& o) -> std::vector<Group> {
+auto split_at_gaps(const Group& group, const Options& o) -> std::vector<Group> {
   std::vector<Group> parts;
   for (const auto k : group) {
-    if (parts.empty() || static_cast<double>(k - parts.back().back()) * o.column_width > gap + o.column_width)
+    if (parts.empty() || static_cast<double>(k - parts.back().back()) * o.column_width > o.column_gap + o.column_width)
       parts.emplace_back();
     parts.back().push_back(k);
   }
@@ -211,7 +211,7 @@ auto part_by_setback(const std::vector<Column>& columns, const Group& used, doub
     Group off;
     for (const auto k : used)
       if (side * (columns[k].depth() - middle) >= o.setback) off.push_back(k);
-    for (auto& part : split_at_gaps(off, o.setback_gap, o)) {
+    for (auto& part : split_at_gaps(off, o)) {
       if (part.size() < o.setback_columns) continue;
       for (const auto k : part) aside[k] = 1;
       groups.push_back(std::move(part));
@@ -267,7 +267,7 @@ auto find_bases(const std::vector<WeighedLine>& lines, const slice::SliceStack& 
 
   std::vector<Base> bases;
   for (const auto& group : part_by_setback(columns, used, base::mean_median(feet), o)) {
-    for (const auto& part : split_at_gaps(group, o.column_gap, o)) {
+    for (const auto& part : split_at_gaps(group, o)) {
       const double start = first + static_cast<double>(part.front()) * o.column_width;
       const double end = std::min(last, first + static_cast<double>(part.back() + 1) * o.column_width);
       if (end - start < o.minimum_length) continue;

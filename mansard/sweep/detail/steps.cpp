@@ -253,7 +253,7 @@ class Lines {
     for (const auto& [from, to] : taken) add(from), done = std::max(done, to);
     add(size);
     if (taken.empty()) return s;
-    if (best.second - best.first < options_.step_rest) return std::nullopt;
+    if (!(best.second > best.first)) return std::nullopt;
     return Segment2{s.start + best.first * d, s.start + best.second * d};
   }
 

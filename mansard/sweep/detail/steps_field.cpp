@@ -149,8 +149,6 @@ auto mean_row(const HeightGrid& grid, std::size_t u, std::size_t t, std::size_t 
 auto grains_of(const block::Block& block, const Options& o) -> std::vector<Grain> {
   const auto edges = edges_of(block, o);
   std::vector<char> used(edges.size(), 0);
-  std::vector<double> all(block.members.size(), 0);
-  for (const Edge& e : edges) all[e.member] += e.length;
   std::vector<std::pair<double, Grain>> found;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (used[i] != 0) continue;
@@ -168,7 +166,7 @@ auto grains_of(const block::Block& block, const Options& o) -> std::vector<Grain
     const double angle = edges[i].angle + turn / weight;
     Grain grain{{geometry::cosine(angle), geometry::sine(angle)}, {}};
     for (std::size_t m = 0; m < own.size(); ++m)
-      if (own[m] > 0 && own[m] >= o.step_grain_share * all[m]) grain.members.push_back(m);
+      if (own[m] > 0) grain.members.push_back(m);
     if (!grain.members.empty()) found.emplace_back(weight, std::move(grain));
   }
   std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -202,7 +200,7 @@ HeightGrid::HeightGrid(const block::Block& block, const Grain& grain, const rays
           for (std::size_t i = first; i < nx_; ++i) {
             const double u = (static_cast<double>(i) + 0.5) * cell;
             if (u > at[k + 1] - box.least.x) break;
-            const auto z = mesh.top(origin_ + u * x_ + v * y_);
+            const auto z = mesh.top_inside_walls(origin_ + u * x_ + v * y_, block.members[m].ground);
             if (z && *z >= block.members[m].ground + options.step_ground) z_[j * nx_ + i] = *z;
           }
         }

@@ -267,10 +267,6 @@ auto is_dome(const Crown& seen, const Dome& dome, const std::vector<std::uint32_
 
 }  // namespace
 
-auto is_inside(std::span<const geometry::Polygon> polygons, Point2 at) -> bool {
-  return std::ranges::any_of(polygons, [at](const auto& polygon) { return geometry::contains(polygon, at); });
-}
-
 auto blobs_of(const Surface& surface, std::size_t halo, std::span<const geometry::Polygon> outline,
               const Options& options) -> std::vector<Blob> {
   const auto& grid = surface.grid;
@@ -320,7 +316,7 @@ auto blobs_of(const Surface& surface, std::size_t halo, std::span<const geometry
       hanging += std::isnan(surface.under[c]) ? 0 : 1;
       west = std::min(west, c % grid.columns);
       east = std::max(east, c % grid.columns);
-      if (is_inside(outline, at)) seen.inside += cell_area;
+      if (geometry::contains(outline, at)) seen.inside += cell_area;
     }
     const auto count = static_cast<double>(blob.cells.size());
     seen.centre = (1 / count) * seen.centre;
@@ -352,7 +348,7 @@ auto covers_any(const Blob& blob, const Grid& grid, std::span<const std::vector<
     for (const auto& polygon : footprint) half += geometry::area(polygon) / 2;
     if (blob.seen.inside <= half || !geometry::bounds(footprint).overlaps(box)) return false;
     const auto cells =
-        std::ranges::count_if(blob.cells, [&](auto cell) { return is_inside(footprint, grid.centre(cell)); });
+        std::ranges::count_if(blob.cells, [&](auto cell) { return geometry::contains(footprint, grid.centre(cell)); });
     return static_cast<double>(cells) * grid.spacing * grid.spacing > half;
   });
 }

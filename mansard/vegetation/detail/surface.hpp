@@ -65,8 +65,6 @@ struct Blob {
 
 [[nodiscard]] auto is_crown(const Blob& blob, const Options& options) -> bool;
 
-[[nodiscard]] auto is_inside(std::span<const geometry::Polygon> polygons, geometry::Point2 at) -> bool;
-
 /// Whether a region covers more than half of one of the footprints.
 [[nodiscard]] auto covers_any(const Blob& blob, const Grid& grid,
                               std::span<const std::vector<geometry::Polygon>> footprints) -> bool;
