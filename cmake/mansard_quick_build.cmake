@@ -1,30 +1,37 @@
-# A quicker build from nothing, for the preset `release`: `make demo`, `make test` and continuous integration. Modules and
-# programs are optimised as without it. What is different:
+# A quicker build from nothing, for the presets `release`, `debug` and `clang`: `make demo`, `make test` and continuous
+# integration. Modules and programs are optimised as without it. What is different:
 #   Headers of the standard library, GoogleTest in tests and CLI11 in the command line are parsed once, not once a source.
 #   Our own are not among them: to change one compiles those that include it, no more. Nor is nlohmann/json: g++
 #   instantiates again in every source what such a header leaves open, which costs as much as parsing it.
-#   Tests are compiled with -O1. They spend their time in the modules.
+#   Tests of a release are compiled with -O1. They spend their time in the modules.
 # A source that forgets an #include of these still compiles, and g++ 12 warns of strings that it does not understand. So
-# a build without, of the same sources with all warnings, is what the presets debug and asan are, and any folder
-# configured by hand.
-option(MANSARD_QUICK_BUILD "Precompiled headers, and tests less optimised (g++): a quick build from nothing" OFF)
-if(NOT PROJECT_IS_TOP_LEVEL OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+# a build without, of the same sources with all warnings, is what the preset asan is, and any folder configured by hand.
+# tools/tidy.sh parses every source of the modules alone, with clang.
+option(MANSARD_QUICK_BUILD "Precompiled headers, and tests less optimised (g++, clang): a quick build from nothing" OFF)
+if(NOT PROJECT_IS_TOP_LEVEL OR NOT CMAKE_CXX_COMPILER_ID MATCHES "^(GNU|Clang)$")
   set(MANSARD_QUICK_BUILD OFF)
 endif()
 
-# MANSARD_UNITY, which the Makefile sets for a new folder, compiles the sources of a folder together, so that headers are
-# parsed and templates are compiled once a folder. Who changes sources is quicker without: one source is compiled then, not
-# all of its folder. Names in anonymous namespaces have to be unique in a folder; `make demo` and `make test` see to that.
+# MANSARD_UNITY, which the Makefile sets for a new folder and the presets debug and clang for theirs, compiles the sources of
+# a folder together, so that headers are parsed and templates are compiled once a folder. Who changes sources is quicker
+# without: one source is compiled then, not all of its folder. Names in anonymous namespaces have to be unique in a folder;
+# `make demo` and `make test` see to that.
 option(MANSARD_UNITY "Compile the sources of a folder as one unit, with MANSARD_QUICK_BUILD: quicker from nothing" OFF)
 
 if(MANSARD_QUICK_BUILD)
   # Warnings of what is left after inlining, which differs: -Wstringop-overflow at "text" + std::string is a false alarm
   # akin to -Wrestrict in CMakeLists.txt; the others are its relatives.
-  add_compile_options(-Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds -Wno-maybe-uninitialized)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds -Wno-maybe-uninitialized)
+  endif()
   if(CMAKE_CXX_COMPILER_LAUNCHER)
     # ccache accepts precompiled headers on these terms. Paths below the source folder are relative to it, so that
     # checkouts share what they compiled.
-    add_compile_options(-fpch-preprocess)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      add_compile_options(-fpch-preprocess)
+    else()
+      add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>")
+    endif()
     list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros
       CCACHE_BASEDIR=${PROJECT_SOURCE_DIR})
   endif()
@@ -39,7 +46,7 @@ function(mansard_united target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # Both warn of what is right in sources of their own, where a build without units has them: names that a source before has
   # too, and members of types in anonymous namespaces.
-  target_compile_options(${target} PRIVATE -Wno-shadow $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   get_target_property(root ${target} SOURCE_DIR)
   list(FILTER sources INCLUDE REGEX "[.]cpp$")

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes the extrusion kernel and what reads files, each for SECONDS, from fuzz/corpus and what earlier runs have found.
 #   tools/fuzz.sh SECONDS [plan_json|extrude|mesh_files|tilesets|models|points]
+# JOBS is how many sources are compiled at once (2).
 # A failure is made smaller and its path printed; copied into fuzz/corpus/<name>/ it is replayed by every test run.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -10,7 +11,7 @@ targets=(plan_json extrude mesh_files tilesets models points)
 
 tools/setup.sh build clang
 cmake --preset fuzz --log-level=WARNING > /dev/null
-cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}"
+cmake --build --preset fuzz -j "${JOBS:-2}" --target "${targets[@]/#/fuzz_}"
 findings=$PWD/build/fuzz/findings
 mkdir -p "$findings"
 code=0

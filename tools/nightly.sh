@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The long runs, which are not part of `make test`: tools/nightly.sh [LANE…]; without LANE all of them, in this order.
-#   debug       compiled without optimisation, with the standard library's assertions: all tests
-#   asan        address and undefined behaviour sanitizers in the whole program: all tests
-#   clang       compiled with clang 16: all tests
+#   debug       compiled without optimisation, with the standard library's assertions: all tests but those in browsers
+#   asan        address and undefined behaviour sanitizers in the whole program: all tests but those in browsers
+#   clang       compiled with clang 16: all tests but those in browsers
 #   firefox     the tests of the workbench in Debian's Firefox: all that run in Chromium, where a test run has some of them
 #   headers     every header compiles alone: tools/check_headers.sh --all
 #   tidy        clang-tidy with the checks of .clang-tidy over all modules: tools/tidy.sh
@@ -12,6 +12,9 @@
 #   kills       runs killed at KILLS (1000) random moments, where a test run has 50: results have the bytes of an undisturbed run
 #   clean       `make demo` and `make test` in a new Debian 12: tools/clean_debian.sh, as root. CLEAN has its options, for
 #               example CLEAN="--ccache /var/cache/ccache"
+# The tests in browsers (ctest's label `browser`) test the page, which is the same whatever compiled the program. They run in the
+# lanes `firefox` and `clean`, and in `make test`.
+# JOBS is how many compilers, tests or checks run at once; without it as many as the machine has room for.
 # UNTIL=HH:MM (today) is for a run with little time: debug, asan and clang build and run the tests of one module after another,
 # and begin no module after that time. Their row says which modules were tested.
 # A lane replaces its row of docs/nightly.md; the others keep what they say. Logs: build/nightly/LANE.log. Exit code 1 when a
@@ -21,9 +24,9 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 all=(debug asan clang firefox headers tidy fuzz properties kills clean)
 declare -A meaning=(
-  [debug]="not optimised, standard library's assertions: all tests"
-  [asan]="address and undefined behaviour sanitizers: all tests"
-  [clang]="compiled with clang 16: all tests"
+  [debug]="not optimised, standard library's assertions: all tests but those in browsers"
+  [asan]="address and undefined behaviour sanitizers: all tests but those in browsers"
+  [clang]="compiled with clang 16: all tests but those in browsers"
   [firefox]="the workbench in Firefox: all tests that run in Chromium"
   [headers]="every header compiles alone"
   [tidy]="clang-tidy over all modules: one result a source"
@@ -47,7 +50,7 @@ all_tests() {  # preset, further packages
   if [[ -n ${UNTIL:-} ]]; then
     tests_by_module "$1"
   else
-    cmake --build --preset "$1" -j "$jobs" && ctest --preset "$1" --no-tests=error -j 2
+    cmake --build --preset "$1" -j "$jobs" && ctest --preset "$1" --no-tests=error -j "$jobs" -LE browser
   fi
 }
 tests_by_module() {  # preset
@@ -58,12 +61,12 @@ tests_by_module() {  # preset
     [[ $(date +%H:%M) < $UNTIL ]] || { echo "nightly: it is $UNTIL: no more modules"; return $code; }
     cmake --build --preset "$1" -j "$jobs" --target "test_$module" || { echo "nightly: $module: not built"; code=1; continue; }
     echo "nightly: $module: tested"
-    ctest --preset "$1" --no-tests=error -j 2 -R "^$module\\." || code=1
+    ctest --preset "$1" --no-tests=error -j "$jobs" -LE browser -R "^$module\\." || code=1
   done
   [[ $(date +%H:%M) < $UNTIL ]] || return $code
   cmake --build --preset "$1" -j "$jobs" || return
   echo "nightly: others: tested"
-  ctest --preset "$1" -j 2 -E "^($(IFS='|'; echo "${modules[*]}"))\\." || code=1
+  ctest --preset "$1" -j "$jobs" -LE browser -E "^($(IFS='|'; echo "${modules[*]}"))\\." || code=1
   return $code
 }
 # What the lane was, where not all tests are in its log.
@@ -73,7 +76,7 @@ meaning_of() {  # lane
   if [[ -z ${UNTIL:-} || ! $1 =~ ^(debug|asan|clang)$ || $tested == *'`others`' ]]; then
     echo "${meaning[$1]}"
   else
-    echo "${meaning[$1]/all tests/the tests of ${tested//$'\n'/, } only, in a run that had until $UNTIL}"
+    echo "${meaning[$1]/all tests but those in browsers/the tests of ${tested//$'\n'/, } only, in a run that had until $UNTIL}"
   fi
 }
 run_debug() { all_tests debug; }
@@ -87,22 +90,21 @@ run_firefox() {
 }
 run_headers() { tools/setup.sh build python && JOBS=$jobs tools/check_headers.sh --all; }
 run_tidy() { JOBS=$jobs tools/tidy.sh; }
-run_fuzz() { tools/fuzz.sh "$FUZZ_SECONDS"; }
+run_fuzz() { JOBS=$jobs tools/fuzz.sh "$FUZZ_SECONDS"; }
 run_properties() {
   tools/setup.sh build test && cmake --preset release --log-level=WARNING &&
     cmake --build --preset release --target test_extrude -j "$jobs" || return
-  local cores shard pids=() code=0
-  cores=$(nproc)
+  local shard pids=() code=0
   export MANSARD_RUNS=$RUNS MANSARD_KEEP_FAILURES=1
   export RC_PARAMS="seed=${SEED:-$(date +%Y%m%d)}"  # a failure says which seed repeats it
-  echo "$RUNS random plans, $RC_PARAMS, on $cores cores"
-  for ((shard = 0; shard < cores; ++shard)); do
-    GTEST_TOTAL_SHARDS=$cores GTEST_SHARD_INDEX=$shard build/release/bin/test_extrude \
+  echo "$RUNS random plans, $RC_PARAMS, $jobs at once"
+  for ((shard = 0; shard < jobs; ++shard)); do
+    GTEST_TOTAL_SHARDS=$jobs GTEST_SHARD_INDEX=$shard build/release/bin/test_extrude \
       --gtest_filter='Guarantee.*:*SharedPolygons*:*Fixture*' > "$logs/properties-$shard.log" 2>&1 &
     pids+=($!)
   done
   for pid in "${pids[@]}"; do wait "$pid" || code=1; done
-  for ((shard = 0; shard < cores; ++shard)); do cat "$logs/properties-$shard.log"; done
+  for ((shard = 0; shard < jobs; ++shard)); do cat "$logs/properties-$shard.log"; done
   return $code
 }
 run_kills() {

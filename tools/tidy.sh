@@ -5,16 +5,17 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 tools/setup.sh build test clang
-cmake --preset clang --log-level=WARNING -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > /dev/null
+# Every source alone, as it has to compile: the preset compiles folders as units.
+cmake --preset clang -B build/tidy --log-level=WARNING -DMANSARD_QUICK_BUILD=OFF -DMANSARD_UNITY=OFF > /dev/null
 header=laz/mansard/formats/las/laz_perf.h  # generated
-! grep -q "$header" build/clang/build.ninja || cmake --build build/clang --target "$header" > /dev/null
+! grep -q "$header" build/tidy/build.ninja || cmake --build build/tidy --target "$header" > /dev/null
 sources=("$@")
 [[ $# -gt 0 ]] || mapfile -t sources < <(find mansard -name '*.cpp' | LC_ALL=C sort)
 [[ ${#sources[@]} -gt 0 ]] || { echo "tidy: found no sources" >&2; exit 2; }
 # The check of optional access does not come to an end for a few sources, or crashes (clang-tidy 16): they are checked
 # without it.
 tidy() {
-  local said code=0 run=(clang-tidy-16 -p build/clang --quiet --warnings-as-errors='*' "--header-filter=^$PWD/(mansard|lab)/")
+  local said code=0 run=(clang-tidy-16 -p build/tidy --quiet --warnings-as-errors='*' "--header-filter=^$PWD/(mansard|lab)/")
   said=$(timeout 300 "${run[@]}" "$1" 2> /dev/null) || code=$?
   if [[ $code -ge 124 ]]; then
     code=0

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -22,10 +23,13 @@ namespace mansard::base {
 
 namespace detail {
 
-/// Stands for any value in the count of members; never made.
+/// Stands for any value in the count of members; never made. Clang wants the definition where T is in an anonymous
+/// namespace.
 struct Anything {
   template <class T>
-  operator T() const;  // NOLINT: implicit on purpose
+  operator T() const {  // NOLINT: implicit on purpose
+    std::abort();
+  }
 };
 
 template <class T, std::size_t... I>

@@ -20,8 +20,8 @@ constexpr std::size_t most_candidates = 12;
 /// Two systems that match this closely are the same for footprints of a metre's accuracy.
 constexpr double tie = 0.02;
 
-auto fits(const std::optional<align::Match>& match) -> bool {
-  return match && match->correlation >= least_correlation && match->met >= least_met;
+auto fits(const align::Match& match) -> bool {
+  return match.correlation >= least_correlation && match.met >= least_met;
 }
 
 /// In the file's coordinates.
@@ -54,7 +54,7 @@ auto in_another_crs(const InputPaths& paths, const Options& options, const geome
     const auto scene = ingest::read_footprints(paths.footprints, other, run);
     if (!scene) continue;
     const auto match = align::match_at(mesh, outlines_of(*scene), 0, 0);
-    if (!fits(match)) continue;
+    if (!match || !fits(*match)) continue;
     if (!best || match->correlation > best->match.correlation + tie)
       best = Placing{candidate.name, candidate.title, options.ingest.mesh_offset, *match, footprints.frame.crs};
   }
@@ -99,13 +99,13 @@ auto find_placing(const InputPaths& paths, const Options& options, const base::R
   for (const auto& p : mesh.vertices) box.add({p.x, p.y});
   const Box2 outlines = geometry::bounds(polygons);
   if (box.overlaps(outlines))
-    if (const auto match = align::match_at(mesh, polygons, 0, 0); fits(match))
+    if (const auto match = align::match_at(mesh, polygons, 0, 0); match && fits(*match))
       return std::optional(Placing{{}, {}, options.ingest.mesh_offset, *match, frame.crs});
   if (!frame.crs.empty())
     if (auto found = in_another_crs(paths, wide, mesh, box, *footprints, outlines, run)) return found;
   const auto match = align::best_match(mesh, polygons, {}, run);
   if (run.cancelled()) return base::error("cancelled", "stopped on request");
-  if (!fits(match) || match->correlation < least_lead * match->next) return none;
+  if (!match || !fits(*match) || match->correlation < least_lead * match->next) return none;
   Placing placing{{}, {}, options.ingest.mesh_offset, *match, frame.crs};
   placing.offset[0] += match->x;
   placing.offset[1] += match->y;

@@ -48,6 +48,7 @@ void Scan::expect(const Box3& box) {
 }
 
 auto Scan::number_of(const formats::TextureMaterial& material) -> std::uint32_t {
+  if (!material.image) return no_material;
   const auto& source = *material.image;
   std::uint32_t image = 0;
   const auto path = source.path.string();

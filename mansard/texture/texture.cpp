@@ -261,7 +261,7 @@ auto read(Scan& scan, const std::vector<std::filesystem::path>& meshes, const in
                                        told.insert(told.end(), mesh.warnings.begin(), mesh.warnings.end());
                                        return {};
                                      },
-                                     [&](std::vector<formats::ColouredPoint> points) -> base::Result<void> {
+                                     [&](const std::vector<formats::ColouredPoint>& points) -> base::Result<void> {
                                        scan.add(points);
                                        return {};
                                      }},

@@ -70,9 +70,10 @@ TEST_F(Gltf, names_part_and_surface_of_every_vertex) {
                  surface = glb.accessor<float>(attributes["_FEATURE_ID_1"]);
       const auto normals = glb.accessor<gltf::Float3>(attributes["NORMAL"]);
       for (const auto i : glb.accessor<std::uint32_t>(primitive["indices"])) {
-        EXPECT_EQ(parts.at(static_cast<std::size_t>(part.at(i))), node["name"]);
+        EXPECT_EQ(parts.at(static_cast<std::size_t>(part.at(i))), node["name"].get<std::string>());
         const auto s = static_cast<std::size_t>(surface.at(i));
-        EXPECT_EQ(names.at(classes.at(s)), glb.json["materials"][primitive["material"].get<std::size_t>()]["name"]);
+        const auto& material = glb.json["materials"][primitive["material"].get<std::size_t>()];
+        EXPECT_EQ(names.at(classes.at(s)), material["name"].get<std::string>());
         EXPECT_NEAR(std::cos(slopes.at(s) * M_PI / 180), std::abs(normals[i][1]), 1e-3);
         if (azimuths.at(s) >= 0)
           EXPECT_NEAR(std::sin(azimuths[s] * M_PI / 180) * std::sin(slopes[s] * M_PI / 180), normals[i][0], 1e-3);

@@ -7,6 +7,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$scratch/bin" "$scratch/tools" "$scratch/docs" "$scratch/build/release/bin"
 export PATH=$scratch/bin:$PATH
+unset JOBS UNTIL  # of the lane that runs this test
 calls=$scratch/calls
 : > "$calls"
 page=$scratch/docs/nightly.md
@@ -29,7 +30,8 @@ stand_in bin/ctest 'printf "100%% tests passed, 0 tests failed out of 12\n\nThe 
 
 case $2 in
   nightly_says_which_lanes_were_not_run)
-    nightly debug || fail "failed"
+    JOBS=3 nightly debug || fail "failed"
+    grep -qE '^bin/ctest --preset debug .*-j 3 -LE browser$' "$calls" || fail "not as many tests at once, or those in browsers"
     says '^\| `debug` \| .* \| passed \| 11 \| 0 \| 2 \| 0 \| 20[0-9-]+ \| 1\.2\.3, abc1234 \|$' || fail "no row of debug"
     for lane in asan clang firefox headers tidy fuzz properties kills clean; do
       says "^\| \`$lane\` \| .* \| not run \| \| \| \| \| \| \|$" || fail "$lane was not run"
@@ -57,7 +59,7 @@ case $2 in
   nightly_counts_fuzzers_and_properties)
     stand_in tools/fuzz.sh 'printf "noise\nfuzz: plan_json: passed\nfuzz: extrude: failed\nfuzz: models: passed\n"; exit 1'
     stand_in build/release/bin/test_extrude 'printf "[  PASSED  ] 7 tests.\n[  FAILED  ] Guarantee.holds (12 ms)\n[  FAILED  ] 1 test, listed below:\n[  FAILED  ] Guarantee.holds\n"; exit 1'
-    stand_in bin/nproc 'echo 2'
+    stand_in bin/make 'echo 2'
     FUZZ_SECONDS=5 RUNS=10 nightly fuzz properties || [[ $? -eq 1 ]] || fail "failed"
     grep -q '^tools/fuzz.sh 5$' "$calls" || fail "not the seconds given"
     says '^\| `fuzz` \| each fuzzer for 5 s \| failed \| 2 \| 1 \| 0 \|' || fail "no row of fuzz"
@@ -96,7 +98,7 @@ case $2 in
     stand_in bin/cmake ''
     UNTIL=10:32 nightly asan || fail "failed"
     grep -qE '^bin/ctest .* -E \^\(base\|geometry\|solid\|cli\)\\.$' "$calls" || fail "the other tests did not run"
-    says '^\| `asan` \| .*: all tests \| passed \| 55 \| 0 \| 10 \|' || fail "all tests are not all tests"
+    says '^\| `asan` \| .*: all tests but those in browsers \| passed \| 55 \| 0 \| 10 \|' || fail "all tests are not all tests"
     ;;
   nightly_refuses_a_lane_that_does_not_exist)
     ! nightly debug asam || fail "passed"

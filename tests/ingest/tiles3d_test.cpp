@@ -81,7 +81,7 @@ TEST_F(Tiles, transforms_of_nested_tiles_are_applied_outermost_last) {
   inner["transform"] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1};  // turned by 90°, then 5 m along x
   auto root = tile(box(-100, -100, 100, 100), 10);
   root["transform"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 100, 200, 0, 1};
-  root["children"] = {inner};
+  root["children"] = Json::array({inner});
   put_tile("a.glb", 3, 4);
   const auto scene = alone(file("tileset.json", tileset(root)));
   ASSERT_TRUE(scene) << base::to_string(scene.error());
@@ -91,9 +91,9 @@ TEST_F(Tiles, transforms_of_nested_tiles_are_applied_outermost_last) {
 
 TEST_F(Tiles, the_level_follows_the_geometric_error) {
   auto leaf = tile(box(0, 0, 1, 1), 0, "leaf.glb"), middle = tile(box(0, 0, 1, 1), 5, "middle.glb");
-  middle["children"] = {leaf};
+  middle["children"] = Json::array({leaf});
   auto root = tile(box(0, 0, 1, 1), 20, "root.glb");
-  root["children"] = {middle};
+  root["children"] = Json::array({middle});
   root["refine"] = "REPLACE";
   put_tile("root.glb", 1);
   put_tile("middle.glb", 2);
@@ -116,7 +116,7 @@ TEST_F(Tiles, the_level_follows_the_geometric_error) {
 
 TEST_F(Tiles, an_empty_tile_is_gone_through_whatever_its_error) {
   auto root = tile(box(0, 0, 1, 1), 1);
-  root["children"] = {tile(box(0, 0, 1, 1), 0, "a.glb")};
+  root["children"] = Json::array({tile(box(0, 0, 1, 1), 0, "a.glb")});
   put_tile("a.glb", 7);
   Options options;
   options.tile_error = 100;

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <mutex>
 #include <new>
-#include <optional>
 #include <vector>
 
 #ifdef MANSARD_HAS_LAZ
@@ -55,7 +54,7 @@ struct Z_env_instance_t {
     std::uint32_t invoker = 0, context = 0;
   };
   std::uint32_t decoder_class = 0;
-  std::optional<Method> construct, open, get_point;
+  Method construct, open, get_point;  // invoker 0, which no function of the table has: not registered
 
   Z_env_instance_t() = default;
   Z_env_instance_t(const Z_env_instance_t&) = delete;
@@ -241,7 +240,8 @@ class Decoder {
     host_.instantiated = true;
     Z_lazperfZ_emscripten_stack_init(&host_.module);
     Z_lazperfZ___wasm_call_ctors(&host_.module);
-    if (!host_.construct || !host_.open || !host_.get_point) throw Fault{"the decoder lacks a function"};
+    if (host_.construct.invoker == 0 || host_.open.invoker == 0 || host_.get_point.invoker == 0)
+      throw Fault{"the decoder lacks a function"};
   }
 
   auto decode(std::string_view chunk, int format, std::size_t record, std::uint64_t count) -> std::string {
@@ -256,17 +256,17 @@ class Decoder {
     const auto start = end - length;
     std::memcpy(host_.bytes(start, length), chunk.data(), length);
 
-    const auto object = host_.call<std::uint32_t>(host_.construct->invoker, host_.construct->context);
+    const auto object = host_.call<std::uint32_t>(host_.construct.invoker, host_.construct.context);
     constexpr std::size_t batch = 1024;
     const auto records = allocate(static_cast<std::uint32_t>(batch * record));
-    host_.call<void>(host_.open->invoker, host_.open->context, object, static_cast<std::uint32_t>(format),
+    host_.call<void>(host_.open.invoker, host_.open.context, object, static_cast<std::uint32_t>(format),
                      static_cast<std::uint32_t>(record), start);
     std::string out;
     out.reserve(std::min<std::uint64_t>(count, 65536) * record);
     for (std::uint64_t done = 0; done < count;) {
       const auto now = static_cast<std::uint32_t>(std::min<std::uint64_t>(batch, count - done));
       for (std::uint32_t i = 0; i < now; ++i)
-        host_.call<void>(host_.get_point->invoker, host_.get_point->context, object,
+        host_.call<void>(host_.get_point.invoker, host_.get_point.context, object,
                          records + i * static_cast<std::uint32_t>(record));
       // With memory added behind the chunk, its end would not be noticed.
       if (host_.memory().size != end) throw Fault{"the chunk takes more memory than its points can"};

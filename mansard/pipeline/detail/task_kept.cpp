@@ -149,8 +149,8 @@ auto TaskKeeper::find(const Task& task, const Part& part) -> std::optional<std::
       taken_over_ = true;
       return features;
     }
-  if (auto why = kept_->why_made(task.name, key_); !why.empty())
-    reuse_.made.emplace_back(task.name, why_in_words(std::move(why)));
+  if (const auto why = kept_->why_made(task.name, key_); !why.empty())
+    reuse_.made.emplace_back(task.name, why_in_words(why));
   return std::nullopt;
 }
 
