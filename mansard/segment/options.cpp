@@ -109,7 +109,7 @@ auto option_list(Options& o) -> base::OptionList {
               "Share of the heights of a low narrow part that must be within strip_level of each other; a part with "
               "less is "
               "a blurred wall and is left out.")
-      .advanced("docs/decisions/0034");
+      .advanced("docs/decisions/0112");
   list.number("collinear", o.collinear, "m", {0, 1},
               "Corners of a part nearer than this to the edge without them are removed.")
       .advanced("a tenth of what surveys resolve; not measured");

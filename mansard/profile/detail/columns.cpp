@@ -172,6 +172,7 @@ auto find_setback(std::span<const SliceColumns> slices, const Options& o) -> std
   const auto [low, high] = std::minmax_element(begin, end);
   if (*high - *low > o.setback_level) return std::nullopt;
   const Setback setback{static_cast<double>(wall) * o.column_width, base::median(std::vector<double>(begin, end))};
+  if (setback.height < o.minimum_height) return std::nullopt;  // a yard
 
   std::size_t agreeing = 0;
   for (const auto& slice : slices) {
