@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mansard/base/run.hpp"
+#include "mansard/geometry/mesh_part.hpp"
 
 namespace mansard::vegetation {
 namespace {
@@ -95,7 +96,7 @@ TEST(Vegetation, finds_the_crown_of_a_tree_beside_the_house_and_leaves_the_roof)
       std::ranges::count_if(crowns.triangles, [&](std::uint32_t t) { return t >= house.triangles.size(); });
   EXPECT_GT(of_tree, 0.45 * static_cast<double>(tree.triangles.size()));
   for (const Point2 place : {Point2{2, 2}, {10, 2}, {6, 7}}) EXPECT_FALSE(any_near(all, crowns.below, place, 1));
-  EXPECT_EQ(without(all, crowns.triangles).triangles.size(), all.triangles.size() - crowns.triangles.size());
+  EXPECT_EQ(geometry::without(all, crowns.triangles).triangles.size(), all.triangles.size() - crowns.triangles.size());
 }
 
 TEST(Vegetation, finds_a_crown_over_the_roof) {
