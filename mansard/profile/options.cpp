@@ -135,6 +135,8 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("setback_level", o.setback_level, "m", {0, 20},
               "Maximum height difference within the part before a setback.")
       .advanced("chosen by hand; not measured");
+  list.number("level_slope", o.level_slope, "", {0, 1}, "Slope below which a pitch is level.")
+      .advanced("chosen by hand; not measured");
   list.integer("pitch_columns", o.pitch_columns, "", {2, 100}, "Minimum number of columns of a pitch.")
       .advanced("chosen by hand; not measured");
   list.number("pitch_price", o.pitch_price, "m²", {0, 1000},
@@ -157,6 +159,12 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("pitched_share", o.pitched_share, "", {0, 1},
               "Minimum share of an edge's slices that must rise for it to have a pitched roof.")
+      .advanced("chosen by hand; not measured");
+  list.number("short_run", o.short_run, "m", {0, 50},
+              "Edges shorter than this take the profile of a neighbour, or are walls.")
+      .advanced("chosen by hand; not measured");
+  list.number("gentle_turn", o.gentle_turn, "", {0, 10},
+              "Tangent of the maximum angle between a short edge and the neighbour whose profile it takes.")
       .advanced("chosen by hand; not measured");
   list.number("minimum_height", o.minimum_height, "m", {0.01, 50}, "Minimum height of a building.")
       .advanced("chosen by hand; not measured");

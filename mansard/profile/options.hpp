@@ -76,6 +76,7 @@ struct Options {
   std::size_t setback_blur = 2;   ///< columns to either side of the wall that a scan smears
   std::size_t setback_depth = 4;  ///< columns before the wall, at least
   double setback_level = 1.0;     ///< m between the heights of the part before it
+  double level_slope = 0.05;      ///< slope; flatter is flat
 
   // Pitches.
   std::size_t pitch_columns = 4;  ///< columns of a pitch, at least
@@ -87,6 +88,8 @@ struct Options {
   double hip_corner = 1.0;              ///< m; at a hip the neighbour's roof begins there
   double hip_corner_from = 2.6;         ///< m; on shorter edges all slices count
   double pitched_share = 0.4;           ///< of an edge's slices that must rise; dormers may take the rest
+  double short_run = 1.0;               ///< m; shorter runs follow a neighbour or stand as walls
+  double gentle_turn = 0.5463;          ///< tangent of 0.5 rad: runs follow neighbours that they turn from by less
 
   // Heights and caps.
   double assumed_height = 3.0;  ///< m; where nothing was seen at all; no option: pipeline.assumed_height

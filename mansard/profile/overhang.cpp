@@ -18,10 +18,6 @@ using geometry::Polygon;
 
 /// Rise over run, 60°: below the steep sides of mansard roofs a soffit would be metres lower than the gutter.
 constexpr double steepest = 1.75;
-/// Rise per run: 3°. A flatter roof is a flat one.
-constexpr double flattest = 0.05;
-/// m: shorter edges see too little of their eaves; they follow their row.
-constexpr double shortest = 1;
 
 /// The eaves that a plan's edge has: its roof, and where its slices are read. Heights are z.
 struct Edge {
@@ -36,7 +32,7 @@ struct Edge {
 auto edge_of(const model::Plan& plan, const model::Profile& profile, const Options& o) -> std::optional<Edge> {
   if (profile.size() < 3 || profile[1].inward > 0) return std::nullopt;
   const double way = profile[2].inward, rise = profile[2].height - profile[1].height;
-  if (!(way > 0) || !(rise > flattest * way) || rise > steepest * way) return std::nullopt;
+  if (!(way > 0) || !(rise > o.level_slope * way) || rise > steepest * way) return std::nullopt;
   // The last part of a profile goes on until roofs meet.
   const double run = profile.size() > 3 ? way : std::numeric_limits<double>::infinity();
   Edge edge;
@@ -218,7 +214,8 @@ auto measure_overhangs(std::span<const model::Plan> plans, const geometry::Mesh&
       const auto& ring = r == 0 ? plans[p].outer : plans[p].holes[r - 1];
       out[p].emplace_back(ring.points.size());
       for (std::size_t i = 0; i < ring.points.size(); ++i) {
-        if (length(ring.points[(i + 1) % ring.points.size()] - ring.points[i]) < shortest) continue;
+        // Shorter ones see too little, as for profiles; they follow their row.
+        if (length(ring.points[(i + 1) % ring.points.size()] - ring.points[i]) < options.short_run) continue;
         if (const auto edge = edge_of(plans[p], plans[p].profiles[ring.profile_of_edge[i]], options))
           tasks.push_back({p, r, i, *edge});
       }

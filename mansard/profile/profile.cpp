@@ -169,8 +169,25 @@ auto caps_of(const Work& work, const Options& options) -> std::vector<double> {
   return detail::caps_from(work.heights, tops, pitched, work.height, options);
 }
 
+/// Short runs (bevels, jogs, pieces of curves) see too little: they follow a neighbour that they hardly turn from, or
+/// stand as walls, unless the scan clearly says otherwise.
+void lead_short_runs(const Polygon& polygon, Work& work, const Options& options) {
+  for (std::size_t r = 0; r < work.runs.size(); ++r) {
+    if (work.evidence[r].slices == 0 || detail::length_of(polygon, work.runs[r]) >= options.short_run) continue;
+    auto& profiles = work.choices[r].profiles;
+    const auto wall = std::ranges::find_if(profiles, [](const auto& p) { return p.back().inward == 0; });
+    if (wall != profiles.end()) std::rotate(profiles.begin(), wall, wall + 1);
+    for (const auto neighbour : detail::gentle_neighbours(polygon, work.runs, r, options)) {
+      if (detail::length_of(polygon, work.runs[neighbour]) < options.short_run) continue;
+      const auto lead = work.choices[neighbour].profiles.front();
+      if (lead.back().inward > 0) profiles.insert(profiles.begin(), lead);
+    }
+  }
+}
+
 /// Weighs the runs' candidates against each other and against the scan.
 void settle(Work& work, const Polygon& polygon, const Options& options) {
+  lead_short_runs(polygon, work, options);
   work.caps = caps_of(work, options);
   if (work.samples.empty()) return;
   work.chosen = detail::refine(polygon, work.runs, work.choices, work.samples, work.caps, options).chosen;

@@ -289,6 +289,9 @@ void add_roughness(OptionList& list, Options::Cuts& o) {
       .integer("cuts_fullness_part", o.fullness_part, "", {2, 1'000'000},
                "The maximum height of a structure is exceeded by one sample in this many.")
       .advanced(by_hand)
+      .number("cuts_hipped_min_area", o.hipped_min_area, "m²", area,
+              "A structure of at least this area is also compared with a roof of four hips.")
+      .advanced("a smaller crown passes for one; not measured")
       .number("cuts_fair_area", o.fair_area, "m²", area,
               "A structure of at least this area may have hips and smaller structures on it.")
       .advanced(by_hand)
@@ -321,6 +324,12 @@ void add_cuts(OptionList& list, Options::Cuts& o) {
       .advanced(by_hand)
       .number("cuts_same_share", o.same_share, "", share,
               "Two cuts are one where at most this share of their cells is on different sides.")
+      .advanced(by_hand)
+      .number("cuts_shape_price", o.shape_price, "", share,
+              "An outline is ranked lower by this share of its gain for each of its rectangles.")
+      .advanced(by_hand)
+      .number("cuts_askew_price", o.askew_price, "", share,
+              "An outline along no edge of the part is ranked lower by this share of its gain.")
       .advanced(by_hand)
       .number("cuts_new_direction", o.new_direction, "rad", angle,
               "The walls of a structure are a direction of their own where they differ from all others by more than "

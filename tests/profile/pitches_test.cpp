@@ -210,6 +210,15 @@ TEST(Rising, stops_at_the_ridge) {
   }
 }
 
+TEST(Runs, know_the_neighbours_they_hardly_turn_from) {
+  const Polygon polygon{{{0, 0}, {9, 0}, {10, 0.3}, {10, 8}, {0, 8}}, {}};
+  const auto runs = runs_of(polygon, 0.1);
+  ASSERT_EQ(runs.size(), 5U);
+  EXPECT_EQ(gentle_neighbours(polygon, runs, 1), (std::vector<std::size_t>{0}));
+  EXPECT_EQ(gentle_neighbours(polygon, runs, 0), (std::vector<std::size_t>{1}));
+  EXPECT_TRUE(gentle_neighbours(polygon, runs, 3).empty());
+}
+
 TEST(Caps, put_the_commonest_level_first_for_flat_roofs) {
   std::vector<double> heights;
   for (int i = 0; i < 100; ++i) heights.push_back(i < 10 ? 3.0 : i < 80 ? 9.0 + 0.001 * i : 12.0);

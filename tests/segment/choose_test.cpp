@@ -178,7 +178,7 @@ auto with_slope(geometry::Mesh mesh, double top) -> geometry::Mesh {
   return mesh;
 }
 
-TEST(Choose, leaves_out_a_low_strip_only_where_it_is_a_blurred_wall) {
+TEST(Choose, leaves_out_a_low_strip_only_where_it_is_a_blurred_wall_and_that_is_asked_for) {
   // 0.8 m wide on average, 3.5 m high (median) beside 8 m.
   Case c{AsciiMap({"BAAAA", "BAAAA", "BAAAA", "BAAAA"}, 1), {{'A', 8}, {'B', 3.5}}, {"AB"}, {}};
   c.map.wall({1, 0}, {1, 4}, 0);
@@ -186,6 +186,7 @@ TEST(Choose, leaves_out_a_low_strip_only_where_it_is_a_blurred_wall) {
   EXPECT_EQ(roof.parts.size(), 2U) << "a rear extension";
   EXPECT_TRUE(roof.left_out.empty());
 
+  c.options.strip_share = 0.3;
   const rays::Scene blurred(with_slope(c.map.roofs({{'A', 8}}), 7));
   const auto wall = choose(c.map.arrangement, sweep_edges(8), c.map.block({"AB"}), blurred, c.options);
   ASSERT_TRUE(wall);

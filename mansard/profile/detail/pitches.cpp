@@ -186,11 +186,12 @@ auto profile_from(const RoofLine& line, const Options& o) -> model::Profile {
   std::vector<Pitch> pitches;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const double run = line[i + 1].inward - line[i].inward;
-    const double slope = std::max(0.0, line[i + 1].height - line[i].height) / run;
+    double slope = std::max(0.0, line[i + 1].height - line[i].height) / run;
     if (slope > steep) {  // a wall that the scan has blurred: upright at its middle, between its neighbours' pitches
       if (!pitches.empty()) pitches.back().end = line[i].inward + run / 2;
       continue;
     }
+    if (slope < o.level_slope) slope = 0;
     pitches.push_back({line[i + 1], slope, line[i + 1].inward});
   }
   while (!pitches.empty() && pitches.back().slope == 0) pitches.pop_back();

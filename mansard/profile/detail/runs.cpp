@@ -95,4 +95,20 @@ auto length_of(const Polygon& polygon, const Run& run) -> double {
   return sum;
 }
 
+auto gentle_neighbours(const Polygon& polygon, const std::vector<Run>& runs, std::size_t run, const Options& o)
+    -> std::vector<std::size_t> {
+  const double tangent = o.gentle_turn;
+  const auto same_ring = [&](std::size_t r) { return runs[r].ring == runs[run].ring; };
+  std::size_t first = run, last = run;  // the ring's runs stand together
+  while (first > 0 && same_ring(first - 1)) --first;
+  while (last + 1 < runs.size() && same_ring(last + 1)) ++last;
+  if (first == last) return {};
+  const Ring& ring = ring_of(polygon, runs[run].ring);
+  const std::size_t before = run > first ? run - 1 : last, after = run < last ? run + 1 : first;
+  std::vector<std::size_t> out;
+  if (!turns(ring, runs[run].edges.front(), tangent)) out.push_back(before);
+  if (!turns(ring, runs[after].edges.front(), tangent) && after != before) out.push_back(after);
+  return out;
+}
+
 }  // namespace mansard::profile::detail

@@ -33,4 +33,8 @@ struct Sample {
 /// m; the whole run.
 [[nodiscard]] auto length_of(const geometry::Polygon& polygon, const Run& run) -> double;
 
+/// The runs before and after a run in its ring that it turns from by less than gentle_turn.
+[[nodiscard]] auto gentle_neighbours(const geometry::Polygon& polygon, const std::vector<Run>& runs, std::size_t run,
+                                     const Options& options = {}) -> std::vector<std::size_t>;
+
 }  // namespace mansard::profile::detail

@@ -150,6 +150,16 @@ auto setback(std::vector<Look> looks, const Options& options) -> std::vector<Pro
   if (!behind || !(low > 0)) return {};
   const double high = behind->at_edge + behind->slope * depth;
   if (high - low < o.min_rise) return {};
+  // A tower on the roof stands behind a part of the strip only.
+  constexpr double tower_reach = 1;    // m: what is looked at behind the step
+  constexpr double tower_share = 0.8;  // of it, raised: along all of the side but what the scan lacks
+  std::size_t seen = 0, upright = 0;
+  for (const Look& look : all.subspan(best)) {
+    if (look.inward > depth + tower_reach) break;
+    ++seen;
+    upright += look.height > (low + high) / 2 ? 1 : 0;
+  }
+  if (static_cast<double>(upright) < tower_share * static_cast<double>(seen)) return {};
   std::vector<Profile> out{{{0, 0}, {0, low}, {depth, low}}};
   if (behind->slope > options.forms.min_slope && behind->slope < options.forms.max_slope)
     out.push_back({{0, 0}, {0, low}, {depth, low}, {depth, high}, {depth + 1, high + behind->slope}});

@@ -27,7 +27,8 @@ struct Cut {
   bool step = true;
   Mask mask;
   carve::Errors errors;
-  double gain = 0;  ///< m²·m²
+  double gain = 0;    ///< m²·m²
+  double ranked = 0;  ///< the gain, less of outlines that are complicated or askew
 };
 
 /// Area over the longer side of its box along the frame, metres.
@@ -52,6 +53,8 @@ auto coherent(const carve::Raster& raster, const Cut& cut, const Options& option
   if (rms <= (fair ? o.fair_rms : o.smooth_rms) &&
       (rms <= o.crisp_rms || fair || carve::fullness_of(raster, of_it, o.fullness_part) >= o.fullness))
     return true;
+  const bool may_be_hipped = inside && area >= o.hipped_min_area && area < o.large_area;
+  if (may_be_hipped && carve::hipped_error(raster, core, cut.polygon) <= o.crisp_rms) return true;
   return area >= o.large_area && cut.gain >= o.large_gain * e.whole.model * raster.cell_area();
 }
 
@@ -66,20 +69,21 @@ class Cuts {
     const double piece = geometry::area(polygon);
     if (piece < options_.least_area || area_ - piece < options_.least_area) return;
     if (shape > 0 && mean_width(polygon, frame) < o.min_width) return;
-    Cut cut{polygon, frame, shape, step, carve::cells_in(polygon, raster_), {}, 0};
+    Cut cut{polygon, frame, shape, step, carve::cells_in(polygon, raster_), {}, 0, 0};
     cut.errors = carve::errors_of(raster_, cut.mask, frame, options_.surfaces);
     const double gain = carve::gain_of(cut.errors, options_.surfaces);
     cut.gain = gain * raster_.cell_area();
     if (!(cut.gain >= least_gain_)) return;
     if (shape == 0 && gain < o.line_gain * cut.errors.whole.best) return;
     if (shape > 0 && !coherent(raster_, cut, options_)) return;
+    cut.ranked = cut.gain * (1 - o.shape_price * shape) * (frame.of_part ? 1 : 1 - o.askew_price);
     found_.push_back(std::move(cut));
   }
 
   /// Best first, none nearly the same as a better one.
   [[nodiscard]] auto best() && -> std::vector<Cut> {
     std::ranges::stable_sort(found_, {}, [](const Cut& cut) { return cut.polygon.outer; });
-    rank(found_, [](const Cut& cut) { return -cut.gain; });
+    rank(found_, [](const Cut& cut) { return -cut.ranked; });
     std::vector<Cut> out;
     for (Cut& cut : found_) {
       if (std::ssize(out) >= options_.cuts.max_count) break;
