@@ -78,7 +78,7 @@ struct Options {
 
   // From faces to parts.
   double smallest_part = 1.0;  ///< m²; smaller parts go to their neighbour, or out
-  double low_share = 0.5;      ///< … as are those of at least this share of its height above ground
+  double low_share = 0.5;      ///< narrow parts of at least this share of their neighbour's height belong to it
   double strip_level = 1.0;    ///< m; lower strips are buildings where heights within this of each other …
   double strip_share = 0;      ///< … are at least this share of all; 0: all strips are
   double collinear = 0.01;     ///< m; corners this near to the edge without them are dropped
