@@ -83,7 +83,8 @@ auto prepare(const fs::path& folder, bool overwrite) -> base::Result<void> {
                          "cannot create this folder: " + status.message() + "; choose a path with write permission",
                          folder.string());
   }
-  const auto probe = folder / ".mansard-probe";
+  // Named as what is on its way, which another process that begins here at the same time takes for no result.
+  const auto probe = base::beside(folder / "probe", base::Beside::part);
   if (auto written = base::write_file(probe, ""); !written)
     return base::error("file-write", "cannot write to this folder; choose a path with write permission",
                        folder.string());

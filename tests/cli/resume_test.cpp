@@ -245,6 +245,16 @@ TEST_F(Resume, adds_shares_of_several_processes_up_to_the_whole) {
   EXPECT_THAT(different(results("out"), results("whole")), testing::IsEmpty());
 }
 
+TEST_F(Resume, shares_begin_in_a_new_folder_at_the_same_time) {
+  for (int round = 0; round < 5; ++round) {
+    const auto folder = "out" + std::to_string(round);
+    std::vector<pid_t> shares;
+    for (int i = 1; i <= 8; ++i)
+      shares.push_back(start(command(folder, "-q -j 1 --shares 8 --share " + std::to_string(i))));
+    for (const auto share : shares) EXPECT_EQ(end_of(share), 0) << read(at("stderr"));
+  }
+}
+
 TEST_F(Resume, refuses_shares_that_make_no_sense) {
   for (const std::string words :
        {"--share 1", "--shares 3", "--share 4 --shares 3", "--share 1 --shares 3 --no-resume"}) {
