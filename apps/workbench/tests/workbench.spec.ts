@@ -1329,7 +1329,11 @@ test("dormers are parts: moved, resized, given other roofs, deleted and added", 
   await test.step("a wall, the cap and the roof", async () => {
     const before = await planOf(id);
     const width = ({ outer: { points: p } }: api.Plan) => Math.hypot(p[1]![0] - p[0]![0], p[1]![1] - p[0]![1]);
-    await changes(() => drag(/^edge 1,/, 0, 14));
+    // Outward, whichever way the dormer looks; the plan has north above.
+    const [, p1, p2] = before.outer.points;
+    const [along, up] = [p2![0] - p1![0], p2![1] - p1![1]];
+    const pixels = 14 / Math.hypot(along, up);
+    await changes(() => drag(/^edge 1,/, up * pixels, along * pixels));
     const wide = await planOf(id);
     expect(Math.abs(width(wide) - width(before))).toBeGreaterThan(0.1);
     await check(id);
