@@ -117,6 +117,18 @@ TEST(Registration, finds_footprints_that_are_a_metre_off) {
   EXPECT_EQ(register_footprints(far.walls, block_of(far.drawn), {}).shift, (Point2{0, 0})) << "not by two";
 }
 
+TEST(Registration, is_none_where_two_shifts_fit_alike) {
+  // Drawn between the walls of the house and those of its bays, on both of its long sides.
+  const auto wall = [](Point2 from, Point2 to) { return SweepEdge{{from, to}, 5 * length(to - from), 0, 5, 0}; };
+  std::vector<SweepEdge> walls{wall({0, 5}, {0, 8}), wall({12, 8}, {12, 5}), wall({6.5, 0.6}, {0, 0.6}),
+                               wall({0, 8.6}, {6.5, 8.6})};
+  EXPECT_NEAR(register_footprints(walls, block_of({house}), {}).shift.y, 0.6, 0.05) << "southern wall, northern bay";
+  walls.push_back(wall({12, -0.6}, {6.5, -0.6}));
+  walls.push_back(wall({6.5, 7.4}, {12, 7.4}));
+  EXPECT_EQ(register_footprints(walls, block_of({house}), {}).shift, (Point2{0, 0}))
+      << "southern bay, northern wall, too";
+}
+
 TEST(Registration, takes_eaves_for_eaves) {
   const auto found = register_footprints(walls_of(house, 0.4), block_of({house}), {});
   EXPECT_EQ(found.shift, (Point2{0, 0}));

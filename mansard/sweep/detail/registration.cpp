@@ -149,6 +149,21 @@ auto standard_error(const std::vector<Match>& matches, const Common& common) -> 
                   : std::numeric_limits<double>::infinity();
 }
 
+/// Whether a shift of at most `reach` the other way leaves hardly more over: footprints drawn between the walls of a
+/// building and those of its bays fit on either side, and nothing says on which.
+auto fits_the_other_way(const std::vector<Match>& matches, Point2 shift, double reach, const Options& o) -> bool {
+  constexpr double step = 0.06;  // m; half of the least shift that counts by default
+  const double left = left_over(matches, {shift, 0}, o);
+  const int steps = static_cast<int>(reach / step);
+  for (int i = -steps; i <= steps; ++i)
+    for (int j = -steps; j <= steps; ++j) {
+      const Point2 other{i * step, j * step};
+      if (dot(other, shift) > 0 || length(other) < o.registration_minimum_shift || length(other) > reach) continue;
+      if ((1 - o.registration_explains) * left_over(matches, {other, 0}, o) <= left) return true;
+    }
+  return false;
+}
+
 /// The shift of all footprints, where the walls are clear about it.
 auto clear_shift(const std::vector<Match>& matches, const Options& o) -> std::optional<Point2> {
   const auto common = common_of(matches, o);
@@ -160,7 +175,8 @@ auto clear_shift(const std::vector<Match>& matches, const Options& o) -> std::op
   const bool stands = moved >= o.registration_stands_out * median_rest(matches, shift);
   const bool sure = moved >= o.registration_significance * standard_error(matches, *common) &&
                     left <= (1 - o.registration_explains) * before;
-  return stands || sure ? std::optional(shift.shift) : std::nullopt;
+  return (stands || sure) && !fits_the_other_way(matches, shift.shift, o.gis_offset, o) ? std::optional(shift.shift)
+                                                                                        : std::nullopt;
 }
 
 /// The same of footprints farther off, which must explain most of what was seen: walls of something else are as near.
@@ -174,7 +190,7 @@ auto shift_astray(const std::vector<Match>& matches, const Options& o) -> std::o
                      moved >= o.registration_stands_out * median_rest(matches, shift) &&
                      moved >= o.registration_significance * standard_error(matches, *common) &&
                      left_over(matches, shift, o) <= (1 - o.registration_explains_astray) * left_over(matches, {}, o);
-  return clear ? std::optional(shift.shift) : std::nullopt;
+  return clear && !fits_the_other_way(matches, shift.shift, most, o) ? std::optional(shift.shift) : std::nullopt;
 }
 
 }  // namespace
