@@ -62,7 +62,7 @@ TEST(Climb, goes_up_the_wall_and_the_roof_to_the_ridge_and_down_to_the_ground) {
   expect_rising(*found);
   EXPECT_EQ(found->points.front().height, 0);
   EXPECT_EQ(found->points.front().inward, 0);
-  EXPECT_EQ(found->top(), 5.5);
+  EXPECT_EQ(found->points.back().height, 5.5);
   EXPECT_EQ(found->points.back().inward, 2.5);
   EXPECT_EQ(wall_position(*found, {}), 0.0);
 }
@@ -74,10 +74,10 @@ TEST(Climb, jumps_a_hole_of_up_to_three_metres) {
                                          R"(______|      )", R"(      ^      )"};
   const auto found = climb(drawn(section), {});
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->top(), 6.5);
+  EXPECT_EQ(found->points.back().height, 6.5);
   mansard::profile::Options near;
   near.jump = 1.5;
-  EXPECT_EQ(climb(drawn(section), near)->top(), 3.5);
+  EXPECT_EQ(climb(drawn(section), near)->points.back().height, 3.5);
 }
 
 TEST(Climb, passes_the_parapet_to_the_roof_behind) {
@@ -98,7 +98,7 @@ TEST(Climb, passes_the_parapet_to_the_roof_behind) {
                            {});
   ASSERT_TRUE(found);
   expect_rising(*found);
-  EXPECT_EQ(found->top(), 5.5);
+  EXPECT_EQ(found->points.back().height, 5.5);
   EXPECT_EQ(found->points.back().inward, 5);
 }
 
@@ -115,7 +115,7 @@ TEST(Climb, starts_from_the_roof_where_the_wall_is_missing_or_only_a_hedge_shows
     const auto found = climb(drawn(section), {});
     ASSERT_TRUE(found);
     expect_rising(*found);
-    EXPECT_EQ(found->top(), 7);
+    EXPECT_EQ(found->points.back().height, 7);
   }
 }
 
@@ -131,7 +131,7 @@ TEST(Climb, measures_heights_from_the_ground_it_is_told) {
   const auto found = climb(pieces, {}, 40);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->points.front().height, 40);
-  EXPECT_EQ(found->top(), 43);
+  EXPECT_EQ(found->points.back().height, 43);
 }
 
 TEST(Wall_position, looks_above_cars_and_hedges) {

@@ -14,7 +14,6 @@ namespace mansard::profile::detail {
 /// A raw profile: never decreasing in height, from the lowest point reached to the highest; `height` is z.
 struct Climb {
   std::vector<SectionPoint> points;
-  [[nodiscard]] auto top() const -> double { return points.back().height; }
 };
 
 /// `ground`: z, metres. Starts at the wall near the foot, or where the scan shows none at the first roof piece inward.

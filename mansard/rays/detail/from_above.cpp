@@ -120,35 +120,38 @@ void FromAbove::fill() {
     each_cell(flat_[i], [&](std::size_t cell) { inside_[next[cell]++] = i; });
 }
 
-auto FromAbove::operator()(Point2 at) const -> std::optional<Seen> {
-  if (flat_.empty() || !box_.contains(at)) return std::nullopt;
+template <class Wanted, class Visit>
+void FromAbove::each_over(Point2 at, Wanted wanted, Visit visit) const {
+  if (flat_.empty() || !box_.contains(at)) return;
   const std::size_t cell = cell_of(at);
-  std::optional<Seen> best;
   for (std::size_t k = start_[cell]; k < start_[cell + 1]; ++k) {
-    const auto& [west, south, east, north, top, triangle] = flat_[inside_[k]];
-    if (at.x < west || at.x > east || at.y < south || at.y > north || (best && top < best->z)) continue;
-    const auto& t = mesh_->triangles[triangle];
+    const Flat& one = flat_[inside_[k]];
+    if (at.x < one.west || at.x > one.east || at.y < one.south || at.y > one.north || !wanted(one)) continue;
+    const auto& t = mesh_->triangles[one.triangle];
     const Point3 a = mesh_->vertices[t[0]], b = mesh_->vertices[t[1]], c = mesh_->vertices[t[2]];
-    if (!holds({xy(a), xy(b), xy(c)}, at)) continue;
-    const double z = height(a, b, c, at);
-    // Of several at one height the first of the mesh.
-    if (!best || z > best->z || (z == best->z && triangle < best->triangle)) best = Seen{z, triangle};
+    const std::array corners{xy(a), xy(b), xy(c)};
+    if (holds(corners, at)) visit(one, corners, height(a, b, c, at));
   }
+}
+
+auto FromAbove::operator()(Point2 at) const -> std::optional<Seen> {
+  std::optional<Seen> best;
+  each_over(
+      at, [&](const Flat& one) { return !best || one.top >= best->z; },
+      [&](const Flat& one, const auto&, double z) {
+        // Of several at one height the first of the mesh.
+        if (!best || z > best->z || (z == best->z && one.triangle < best->triangle)) best = Seen{z, one.triangle};
+      });
   return best;
 }
 
 void FromAbove::crossings(Point2 at, std::vector<Crossing>& out) const {
   out.clear();
-  if (flat_.empty() || !box_.contains(at)) return;
-  const std::size_t cell = cell_of(at);
-  for (std::size_t k = start_[cell]; k < start_[cell + 1]; ++k) {
-    const auto& [west, south, east, north, top, triangle] = flat_[inside_[k]];
-    if (at.x < west || at.x > east || at.y < south || at.y > north) continue;
-    const auto& t = mesh_->triangles[triangle];
-    const Point3 a = mesh_->vertices[t[0]], b = mesh_->vertices[t[1]], c = mesh_->vertices[t[2]];
-    if (!holds({xy(a), xy(b), xy(c)}, at)) continue;
-    out.push_back({height(a, b, c, at), geometry::orientation(xy(a), xy(b), xy(c)) > 0, triangle});
-  }
+  each_over(
+      at, [](const Flat&) { return true; },
+      [&](const Flat& one, const auto& corners, double z) {
+        out.push_back({z, geometry::orientation(corners[0], corners[1], corners[2]) > 0, one.triangle});
+      });
   std::ranges::sort(out, [](const Crossing& a, const Crossing& b) {
     return a.z != b.z ? a.z > b.z : a.upward != b.upward ? a.upward : a.triangle < b.triangle;
   });

@@ -49,6 +49,9 @@ class FromAbove {
   [[nodiscard]] auto cell_of(geometry::Point2 p) const -> std::size_t { return y_.cell(p.y) * x_.count + x_.cell(p.x); }
   template <class Visit>
   void each_cell(const Flat& one, Visit visit) const;
+  /// visit(Flat, corners, z) for every triangle over a point of which wanted(Flat) holds, z where the point is.
+  template <class Wanted, class Visit>
+  void each_over(geometry::Point2 at, Wanted wanted, Visit visit) const;
   void choose_cells(const geometry::Box2& box);
   void order_by_cell();
   [[nodiscard]] auto entries() const -> std::size_t;
