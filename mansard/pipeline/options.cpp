@@ -146,6 +146,7 @@ constexpr std::array removed{
     Removed{"refine.outlines_reach", "refine.samples_melt"},
     Removed{"refine.outlines_trim_length", "refine.samples_melt"},
     Removed{"refine.pieces_aside", "refine.pieces_slit"},
+    Removed{"refine.refit_max_slope", "refine.forms_max_slope"},
     Removed{"refine.regions_gap_cells", ""},
     Removed{"refine.regions_max_levels", ""},
     Removed{"refine.regions_max_residual", ""},

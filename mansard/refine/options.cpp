@@ -94,8 +94,9 @@ void add_forms(OptionList& list, Options::Forms& o) {
       .advanced("any positive height gives a solid; chosen by hand")
       .number("forms_min_slope", o.min_slope, "", slope, "A form with a smaller slope (rise per run) is not proposed.")
       .advanced(by_hand)
-      .number("forms_max_slope", o.max_slope, "", slope, "A form with a greater slope (rise per run) is not proposed.")
-      .advanced(by_hand)
+      .number("forms_max_slope", o.max_slope, "", slope,
+              "A form with a greater slope (rise per run) is not proposed, and no refitted plane is steeper.")
+      .advanced("a steeper one is a scan's rounding of a wall (79°); decision 113")
       .integer("forms_max_axes", o.max_axes, "", count,
                "Number of directions of a part along which gables and single pitches are tried.")
       .advanced(by_hand)
@@ -146,8 +147,6 @@ void add_setback(OptionList& list, Options::Setback& o) {
 void add_refit(OptionList& list, Options::Refit& o) {
   list.number("refit_min_slope", o.min_slope, "", slope, "Minimum slope (rise per run) that a refitted plane takes.")
       .advanced("a flatter roof is the cap's; not measured")
-      .number("refit_max_slope", o.max_slope, "", slope, "Maximum slope (rise per run) that a refitted plane takes.")
-      .advanced("a steeper one is a wall (85°); not measured")
       .integer("refit_min_samples", o.min_samples, "", {1, 10'000},
                "A plane with fewer samples on its faces stays as it is.")
       .advanced(by_hand)

@@ -79,7 +79,6 @@ struct Options {
   /// Planes moved to the samples on their own faces (refit).
   struct Refit {
     double min_slope = 0.03;
-    double max_slope = 12;
     std::int64_t min_samples = 4;
     std::int64_t min_cap_samples = 8;
     double max_knot_move = 1.5;  ///< m

@@ -131,7 +131,7 @@ auto refitted_line(const RoofLine& line, const std::vector<Look>& looks, const O
   const auto free = line_through(looks, line, options.lines);
   RoofLine out = free.value_or(raised_line(looks, line, options.lines));
   const double terrace = line.slope == 0 ? 0 : options.refit.min_slope;
-  out.slope = std::clamp(out.slope, terrace, std::max(terrace, options.refit.max_slope));
+  out.slope = std::clamp(out.slope, terrace, std::max(terrace, options.forms.max_slope));
   if (line.slope == 0) out.slope = 0;
   return free && out.slope == free->slope ? out : raised_line(looks, out, options.lines);
 }
