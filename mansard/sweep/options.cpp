@@ -238,6 +238,14 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("footprint_rest", o.footprint_rest, "m", {0, 100},
               "Minimum length of the rest of a wall beside which there is no footprint's edge.")
       .advanced("chosen by hand; not measured");
+  list.number(
+          "eaves_reach", o.eaves_reach, "m", {0, 20},
+          "Walls up to this far inside of a footprint's edge are moved outward to the end of the eaves above them; 0: "
+          "none are.")
+      .advanced("docs/decisions/0115");
+  list.number("eaves_spread", o.eaves_spread, "m", {0, 20},
+              "Maximum spread of the overhang along a wall: the median distance from its median.")
+      .advanced("docs/decisions/0115");
   list.number("step_cell", o.step_cell, "m", {0.05, 5},
               "Cell size of the grid of heights in which roof steps are looked for.")
       .advanced("the cell of the paper's error measure");

@@ -109,6 +109,10 @@ struct Options {
   double footprint_straight = 0.03;  ///< m; corners this near to the line without them do not bend it
   double footprint_rest = 1.0;       ///< m of a sweep-edge beside which there is no footprint edge
 
+  // Walls under eaves.
+  double eaves_reach = 1.5;   ///< m inside of a footprint's edge: as far as footprints may be astray
+  double eaves_spread = 0.3;  ///< m; median distance of the eaves' columns from their median
+
   // Roof steps.
   double step_cell = 0.25;          ///< m
   std::size_t step_near = 2;        ///< cells: half the width of a step's melted flank

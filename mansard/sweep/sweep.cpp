@@ -6,6 +6,7 @@
 #include "mansard/sweep/detail/alignment.hpp"
 #include "mansard/sweep/detail/bases.hpp"
 #include "mansard/sweep/detail/clusters.hpp"
+#include "mansard/sweep/detail/eaves.hpp"
 #include "mansard/sweep/detail/lines.hpp"
 #include "mansard/sweep/detail/registration.hpp"
 #include "mansard/sweep/detail/selection.hpp"
@@ -38,6 +39,13 @@ auto find_edges(const slice::SliceStack& stack, const block::Block& block, const
   edges.edges = detail::put_on_footprints(edges.edges, block, edges.registration, options);
   detail::sort_longest_first(edges.edges);
   run.report("sweep", block.name, 1.0);
+  return edges;
+}
+
+auto under_eaves(SweepEdges edges, const block::Block& block, const rays::Scene& mesh, const Options& options)
+    -> SweepEdges {
+  edges.edges = detail::moved_under_eaves(std::move(edges.edges), block, edges.registration, mesh, options);
+  detail::sort_longest_first(edges.edges);
   return edges;
 }
 

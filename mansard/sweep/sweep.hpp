@@ -58,6 +58,12 @@ struct SweepEdges {
 [[nodiscard]] auto find_edges(const slice::SliceStack& stack, const block::Block& block, const Options& options,
                               const base::Run& run = {}) -> SweepEdges;
 
+/// The same edges, where walls are inside of a footprint under eaves that end inside of it, too, moved outward to where
+/// these end as seen from above (docs/decisions/0115). Guarantees: 1 edges are sorted longest first · 2 none is moved
+/// by more than `eaves_reach`. Cost: O(length of such walls · log n).
+[[nodiscard]] auto under_eaves(SweepEdges edges, const block::Block& block, const rays::Scene& mesh,
+                               const Options& options) -> SweepEdges;
+
 /// The same edges, and those along which the top surface jumps inside the footprints, where neither a wall nor a
 /// footprint's edge runs already: steps between roofs, and changes from one roof to another. Guarantees: 1 walls keep
 /// their order, and every roof step is at least `step_height` high and `step_length` long · 2 edges are sorted longest

@@ -53,7 +53,11 @@ auto segment_block(const block::Block& block, const rays::Scene& mesh, const Opt
   auto sweeps = stage("sweep", tell, report, [&] {
     sweep::Options sweeping = options.sweep;
     sweeping.step_ground = options.segment.min_height;  // what is no building has no roof
-    return sweep::with_roof_steps(sweep::find_edges(stack, block, sweeping, run), block, mesh, sweeping, run);
+    auto edges = sweep::find_edges(stack, block, sweeping, run);
+    // What measures eaves has to have the walls below them.
+    if (options.profile.overhangs == profile::Overhangs::off)
+      edges = sweep::under_eaves(std::move(edges), block, mesh, sweeping);
+    return sweep::with_roof_steps(std::move(edges), block, mesh, sweeping, run);
   });
   auto arrangement = stage("fracture", tell, report, [&] {
     return fracture::arrange(segment::cuts_of(sweeps, block, options.segment), region_of(block), options.fracture, run);

@@ -316,12 +316,17 @@ auto joined(const std::vector<Stretch>& stretches, const Options& o) -> std::vec
 
 }  // namespace
 
+auto edges_of_footprints(const block::Block& block, const Registration& registration) -> std::vector<Segment2> {
+  std::vector<Segment2> edges;
+  for (const auto& member : block.members)
+    for (const auto& polygon : member.polygons) add_edges(polygon, registration.shift, edges);
+  return edges;
+}
+
 auto put_on_footprints(const std::vector<SweepEdge>& edges, const block::Block& block, const Registration& registration,
                        const Options& o) -> std::vector<SweepEdge> {
   if (!(o.gis_offset > 0)) return edges;
-  std::vector<Segment2> footprints;
-  for (const auto& member : block.members)
-    for (const auto& polygon : member.polygons) add_edges(polygon, registration.shift, footprints);
+  const auto footprints = edges_of_footprints(block, registration);
   const LineIndex index(footprints, 8);
 
   std::vector<SweepEdge> result;

@@ -13,6 +13,10 @@ namespace mansard::sweep::detail {
 [[nodiscard]] auto register_footprints(const std::vector<SweepEdge>& edges, const block::Block& block,
                                        const Options& options) -> Registration;
 
+/// Of all footprints, displaced by the registration, turned so that outside is on the left.
+[[nodiscard]] auto edges_of_footprints(const block::Block& block, const Registration& registration)
+    -> std::vector<geometry::Segment2>;
+
 /// Sweep-edges that follow footprints' edges, displaced by the registration, are put on them, piece by piece where the
 /// outline bends; the others stay as they are. Pieces share their edge's area by length.
 [[nodiscard]] auto put_on_footprints(const std::vector<SweepEdge>& edges, const block::Block& block,
