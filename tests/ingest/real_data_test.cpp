@@ -19,7 +19,12 @@ struct Known {
   const char* crs;
 };
 
-class RealData : public ::testing::TestWithParam<Known> {};
+class RealData : public ::testing::TestWithParam<Known> {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(shared)) GTEST_SKIP() << "no shared data";
+  }
+};
 
 TEST_P(RealData, is_read_as_the_catalogue_has_it) {
   const Known& known = GetParam();
@@ -94,7 +99,13 @@ INSTANTIATE_TEST_SUITE_P(
               ""}),
     [](const auto& given) { return std::string(given.param.name); });
 
-class OtherRealData : public Workshop {};
+class OtherRealData : public Workshop {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(shared)) GTEST_SKIP() << "no shared data";
+    Workshop::SetUp();
+  }
+};
 
 TEST_F(OtherRealData, campus_is_read_over_a_drawn_footprint) {
   const auto scene = read({shared / "campus/campus_2tiles.ply"}, polygons({square(10, 10)}));
@@ -116,7 +127,14 @@ TEST_F(OtherRealData, footprints_without_a_mesh_are_read_over_level_ground) {
   }
 }
 
-TEST(Delft, coordinates_are_those_of_the_file_bit_for_bit) {
+class Delft : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(shared)) GTEST_SKIP() << "no shared data";
+  }
+};
+
+TEST_F(Delft, coordinates_are_those_of_the_file_bit_for_bit) {
   Options options;
   options.mesh_offset = {84800, 447400, 0};
   const auto scene =
@@ -130,7 +148,7 @@ TEST(Delft, coordinates_are_those_of_the_file_bit_for_bit) {
   EXPECT_TRUE(found);
 }
 
-TEST(Delft, is_the_same_at_one_and_two_threads) {
+TEST_F(Delft, is_the_same_at_one_and_two_threads) {
   Options options;
   options.mesh_offset = {84800, 447400, 0};
   const auto once = [&](std::size_t threads) {
