@@ -243,8 +243,9 @@ auto level_for(const std::string& pattern, const Box2& box, int most) -> base::R
     const auto name = filled(pattern, tile_at(middle, level.zoom));
     auto answer = read_all({name}).front();
     if (!answer) return answer.failure();
-    if (!*answer) continue;
-    const auto tile = decoded(**answer, name);
+    auto& bytes = *answer;
+    if (!bytes) continue;
+    const auto tile = decoded(*bytes, name);
     if (!tile) return tile.failure();
     level.side = tile->side;
     const int enough = zoom_for(extent, tile->side, most);
@@ -286,8 +287,9 @@ auto mosaic(const std::string& pattern, const Box2& box, const Level& level, con
     auto answers = read_all(names);
     for (std::size_t k = 0; k < names.size(); ++k) {
       if (!answers[k]) return answers[k].failure();
-      if (!*answers[k]) continue;  // transparent
-      auto tile = decoded(**answers[k], names[k]);
+      auto& bytes = *answers[k];
+      if (!bytes) continue;  // transparent
+      auto tile = decoded(*bytes, names[k]);
       if (!tile) return tile.failure();
       if (tile->side != level.side)
         return bad_tiles("tiles have different sizes: " + std::to_string(tile->side) + " and " +
