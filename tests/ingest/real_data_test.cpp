@@ -19,12 +19,14 @@ struct Known {
   const char* crs;
 };
 
-class RealData : public ::testing::TestWithParam<Known> {
+class SharedData : public Workshop {
  protected:
   void SetUp() override {
     if (!fs::exists(shared)) GTEST_SKIP() << "no shared data";
   }
 };
+
+class RealData : public SharedData, public ::testing::WithParamInterface<Known> {};
 
 TEST_P(RealData, is_read_as_the_catalogue_has_it) {
   const Known& known = GetParam();
@@ -99,13 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
               ""}),
     [](const auto& given) { return std::string(given.param.name); });
 
-class OtherRealData : public Workshop {
- protected:
-  void SetUp() override {
-    if (!fs::exists(shared)) GTEST_SKIP() << "no shared data";
-    Workshop::SetUp();
-  }
-};
+class OtherRealData : public SharedData {};
 
 TEST_F(OtherRealData, campus_is_read_over_a_drawn_footprint) {
   const auto scene = read({shared / "campus/campus_2tiles.ply"}, polygons({square(10, 10)}));
@@ -127,12 +123,7 @@ TEST_F(OtherRealData, footprints_without_a_mesh_are_read_over_level_ground) {
   }
 }
 
-class Delft : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (!fs::exists(shared)) GTEST_SKIP() << "no shared data";
-  }
-};
+class Delft : public SharedData {};
 
 TEST_F(Delft, coordinates_are_those_of_the_file_bit_for_bit) {
   Options options;
