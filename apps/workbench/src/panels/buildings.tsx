@@ -72,7 +72,8 @@ export function BuildingsPanel() {
   const box = useRef<HTMLDivElement>(null);
   const [window, setWindow] = useState({ top: 0, height: 600 });
   const list = rows.value;
-  const at = list.findIndex((r) => r.id === state.selection.value?.building);
+  const selected = state.selection.value?.building;
+  const at = list.findIndex((r) => r.id === selected);
 
   useEffect(() => {
     const sized = new ResizeObserver(() =>
@@ -89,7 +90,15 @@ export function BuildingsPanel() {
     else if (top + 2 * rowHeight > element.scrollTop + element.clientHeight) {
       element.scrollTop = top + 2 * rowHeight - element.clientHeight;
     }
-  }, [at]);
+    // Not when the order changes: sortBy shows the first rows then.
+  }, [selected, filter.value, runId.value]);
+
+  /** Whoever sorts by error wants to see the largest one, wherever the selected building is. */
+  const sortBy = (by: Order) => {
+    order.value = by;
+    if (box.current) box.current.scrollTop = 0;
+    setWindow({ ...window, top: 0 });
+  };
 
   const { from, to } = visibleRows(list.length, rowHeight, window.top, window.height);
   const keys = (e: KeyboardEvent) => {
@@ -135,7 +144,7 @@ export function BuildingsPanel() {
                   type="button"
                   class={"plain" + (number ? " number" : "")}
                   title={title}
-                  onClick={() => (order.value = { column, down: by ? !order.value.down : !!number })}
+                  onClick={() => sortBy({ column, down: by ? !order.value.down : !!number })}
                 >
                   {name}
                   {by && <span aria-hidden="true">{order.value.down ? " ▾" : " ▴"}</span>}
