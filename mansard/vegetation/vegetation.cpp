@@ -122,6 +122,7 @@ auto find(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline
       const bool over_all = detail::covers_any(blob, grid, footprints);
       // A scan rounds a shed until it has the shape of a crown; but a tree is not just as large as what it stands over.
       if (over_all && blob.seen.inside > blob.seen.area / 2) continue;
+      if (detail::is_annex(blob, surface, outline)) continue;
       each[i].crowns.push_back(blob.seen);
       lower(floor, blob, surface, outline, over_all, options);
     }

@@ -129,6 +129,16 @@ TEST(Registration, is_none_where_two_shifts_fit_alike) {
       << "southern bay, northern wall, too";
 }
 
+TEST(Registration, finds_the_displacement_of_footprints_that_are_drawn_too_large) {
+  // Everywhere as much too large as they are displaced: one wall is where it is drawn.
+  const auto shift_of = [](double out) {
+    return register_footprints(walls_of(house, out), block_of({moved(house, {0.15, 0})}), {}).shift;
+  };
+  EXPECT_LT(length(shift_of(-0.15) - Point2{-0.15, 0}), 0.01);
+  EXPECT_EQ(shift_of(0.15), (Point2{0, 0})) << "eaves on all sides but one, as likely";
+  EXPECT_EQ(shift_of(-0.3), (Point2{0, 0})) << "such walls do not stand on their footprints";
+}
+
 TEST(Registration, takes_eaves_for_eaves) {
   const auto found = register_footprints(walls_of(house, 0.4), block_of({house}), {});
   EXPECT_EQ(found.shift, (Point2{0, 0}));

@@ -257,6 +257,23 @@ TEST(Vegetation, leaves_of_a_shed_below_a_tree_what_has_no_visible_underside) {
   EXPECT_TRUE(any_near(mesh, known.triangles, {3.4, 5}, 0.5));
 }
 
+TEST(Vegetation, takes_no_annex_for_the_crown_of_a_tree) {
+  // It leans on the higher house in the north, and ends where its outline does.
+  const Polygon house{{{-2, 6.6}, {14, 6.6}, {14, 16}, {4.3, 16}, {-2, 16}}, {}};
+  const auto height = [&](bool leans) {
+    return [leans, house](Point2 p) { return geometry::contains(house, p) ? (leans ? 9.0 : 1.0) : rounded_shed(p); };
+  };
+  const std::vector<Polygon> plan{
+      {{{4.3, 3.3}, {7.7, 3.3}, {7.7, 6.6}, {14, 6.6}, {14, 16}, {-2, 16}, {-2, 6.6}, {4.3, 6.6}}, {}}};
+  EXPECT_TRUE(find(sheet(ground, 0.25, height(true)), plan, buildings(plan), {}).crowns.empty());
+  EXPECT_EQ(find(sheet(ground, 0.25, height(false)), plan, buildings(plan), {}).crowns.size(), 1U)
+      << "of a low terrace, a crown";
+  // The same shape over open ground and roof alike is that of a tree.
+  const std::vector<Polygon> narrow{
+      {{{6, 3.3}, {7.7, 3.3}, {7.7, 6.6}, {14, 6.6}, {14, 16}, {-2, 16}, {-2, 6.6}, {6, 6.6}}, {}}};
+  EXPECT_EQ(find(sheet(ground, 0.25, height(true)), narrow, buildings(narrow), {}).crowns.size(), 1U);
+}
+
 TEST(Vegetation, leaves_a_canopy_whose_underside_is_seen) {
   auto canopy = sheet({{3, -3}, {9, 0.5}}, 0.25, [](Point2) { return 4.0; });
   auto underside = sheet({{3, -3}, {9, 0.5}}, 0.25, [](Point2) { return 3.7; });

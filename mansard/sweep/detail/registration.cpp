@@ -79,6 +79,13 @@ struct Common {
   [[nodiscard]] auto rest(const Match& m) const -> double { return m.offset - dot(m.normal, shift) - outward; }
 };
 
+/// By how much walls stand outside of their footprints, without a displacement.
+auto median_offset(const std::vector<Match>& matches) -> double {
+  std::vector<std::pair<double, double>> offsets;
+  for (const auto& m : matches) offsets.emplace_back(m.offset, m.weight);
+  return median(std::move(offsets));
+}
+
 /// What half of the walls are nearer than.
 auto median_rest(const std::vector<Match>& matches, const Common& common) -> double {
   std::vector<std::pair<double, double>> rests;
@@ -112,12 +119,7 @@ auto solved(std::array<std::array<double, 4>, 3> m, double least_pivot) -> std::
 /// The common part with the least sum of absolute rests, by reweighted least squares; none where the walls face too few
 /// ways to tell a displacement from eaves.
 auto common_of(const std::vector<Match>& matches, const Options& o) -> std::optional<Common> {
-  Common common;
-  common.outward = [&] {
-    std::vector<std::pair<double, double>> offsets;
-    for (const auto& m : matches) offsets.emplace_back(m.offset, m.weight);
-    return median(std::move(offsets));
-  }();
+  Common common{{}, median_offset(matches)};
   for (std::size_t round = 0; round < o.registration_rounds; ++round) {
     std::array<std::array<double, 4>, 3> normal{};
     double total = 0;
@@ -151,15 +153,18 @@ auto standard_error(const std::vector<Match>& matches, const Common& common) -> 
 
 /// Whether a shift of at most `reach` the other way leaves hardly more over: footprints drawn between the walls of a
 /// building and those of its bays fit on either side, and nothing says on which.
-auto fits_the_other_way(const std::vector<Match>& matches, Point2 shift, double reach, const Options& o) -> bool {
+auto fits_the_other_way(const std::vector<Match>& matches, const Common& found, double reach, const Options& o)
+    -> bool {
   constexpr double step = 0.06;  // m; half of the least shift that counts by default
-  const double left = left_over(matches, {shift, 0}, o);
+  const double left = left_over(matches, found, o);
   const int steps = static_cast<int>(reach / step);
   for (int i = -steps; i <= steps; ++i)
     for (int j = -steps; j <= steps; ++j) {
       const Point2 other{i * step, j * step};
-      if (dot(other, shift) > 0 || length(other) < o.registration_minimum_shift || length(other) > reach) continue;
-      if ((1 - o.registration_explains) * left_over(matches, {other, 0}, o) <= left) return true;
+      if (dot(other, found.shift) > 0 || length(other) < o.registration_minimum_shift || length(other) > reach)
+        continue;
+      for (const double outward : {0.0, found.outward})
+        if ((1 - o.registration_explains) * left_over(matches, {other, outward}, o) <= left) return true;
     }
   return false;
 }
@@ -168,15 +173,22 @@ auto fits_the_other_way(const std::vector<Match>& matches, Point2 shift, double 
 auto clear_shift(const std::vector<Match>& matches, const Options& o) -> std::optional<Point2> {
   const auto common = common_of(matches, o);
   if (!common) return std::nullopt;
-  const Common shift{common->shift, 0};
-  const double moved = length(shift.shift), left = left_over(matches, shift, o), before = left_over(matches, {}, o);
-  if (!(moved >= o.registration_minimum_shift && moved <= o.gis_offset && left < before)) return std::nullopt;
-  // The median: annexes and set-backs stand far from their outline wherever that lies.
-  const bool stands = moved >= o.registration_stands_out * median_rest(matches, shift);
-  const bool sure = moved >= o.registration_significance * standard_error(matches, *common) &&
-                    left <= (1 - o.registration_explains) * before;
-  return (stands || sure) && !fits_the_other_way(matches, shift.shift, o.gis_offset, o) ? std::optional(shift.shift)
-                                                                                        : std::nullopt;
+  const double moved = length(common->shift);
+  if (!(moved >= o.registration_minimum_shift && moved <= o.gis_offset)) return std::nullopt;
+  const double error = standard_error(matches, *common);
+  const auto is_clear = [&](const Common& with, const Common& without) {
+    const double left = left_over(matches, with, o), before = left_over(matches, without, o);
+    // The median: annexes and set-backs stand far from their outline wherever that lies.
+    const bool stands = moved >= o.registration_stands_out * median_rest(matches, with);
+    const bool sure = moved >= o.registration_significance * error && left <= (1 - o.registration_explains) * before;
+    return left < before && (stands || sure) && !fits_the_other_way(matches, with, o.gis_offset, o);
+  };
+  if (is_clear({common->shift, 0}, {})) return common->shift;
+  // Of footprints that are drawn too large on all sides, the displacement shows only beside that. Not where walls are
+  // seen outside: eaves of one side do the same, and move nothing.
+  const bool too_large = common->outward < 0 && common->outward >= -o.gis_inward;
+  return too_large && is_clear(*common, {{}, std::min(0.0, median_offset(matches))}) ? std::optional(common->shift)
+                                                                                     : std::nullopt;
 }
 
 /// The same of footprints farther off, which must explain most of what was seen: walls of something else are as near.
@@ -190,7 +202,7 @@ auto shift_astray(const std::vector<Match>& matches, const Options& o) -> std::o
                      moved >= o.registration_stands_out * median_rest(matches, shift) &&
                      moved >= o.registration_significance * standard_error(matches, *common) &&
                      left_over(matches, shift, o) <= (1 - o.registration_explains_astray) * left_over(matches, {}, o);
-  return clear && !fits_the_other_way(matches, shift.shift, most, o) ? std::optional(shift.shift) : std::nullopt;
+  return clear && !fits_the_other_way(matches, shift, most, o) ? std::optional(shift.shift) : std::nullopt;
 }
 
 }  // namespace

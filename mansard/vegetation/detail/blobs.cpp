@@ -353,4 +353,35 @@ auto covers_any(const Blob& blob, const Grid& grid, std::span<const std::vector<
   });
 }
 
+auto is_annex(const Blob& blob, const Surface& surface, std::span<const geometry::Polygon> outline) -> bool {
+  // Each limit is between what annexes and planted crowns were measured to have: docs/decisions/0117.
+  constexpr double least_inside = 0.8;                       // share of it over the outline
+  constexpr double most_hanging = 0.15;                      // share of it with a visible underside
+  constexpr double around = 1;                               // m; what is beside it
+  constexpr double least_outside = 0.25, least_high = 0.05;  // shares of that: beyond the outline, higher than its top
+  if (blob.seen.inside < least_inside * blob.seen.area || blob.seen.overhang > most_hanging) return false;
+  const auto& grid = surface.grid;
+  const auto reach = static_cast<std::int64_t>(std::round(around / grid.spacing));
+  std::vector<std::uint8_t> counted(grid.size(), 0);
+  for (const auto c : blob.cells) counted[c] = 1;
+  std::size_t beside = 0, outside = 0, high = 0;
+  for (const auto c : blob.cells) {
+    const auto column = static_cast<std::int64_t>(c % grid.columns), row = static_cast<std::int64_t>(c / grid.columns);
+    for (std::int64_t y = row - reach; y <= row + reach; ++y)
+      for (std::int64_t x = column - reach; x <= column + reach; ++x) {
+        if ((x - column) * (x - column) + (y - row) * (y - row) > reach * reach) continue;
+        if (x < 0 || y < 0 || x >= static_cast<std::int64_t>(grid.columns) || y >= static_cast<std::int64_t>(grid.rows))
+          continue;
+        const auto cell = static_cast<std::size_t>(y) * grid.columns + static_cast<std::size_t>(x);
+        if (counted[cell] != 0) continue;
+        counted[cell] = 1;
+        ++beside;
+        if (!geometry::contains(outline, grid.centre(cell))) ++outside;
+        else if (surface.top[cell] > blob.seen.top) ++high;
+      }
+  }
+  const auto all = static_cast<double>(beside);
+  return static_cast<double>(outside) >= least_outside * all && static_cast<double>(high) >= least_high * all;
+}
+
 }  // namespace mansard::vegetation::detail

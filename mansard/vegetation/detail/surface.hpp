@@ -69,4 +69,8 @@ struct Blob {
 [[nodiscard]] auto covers_any(const Blob& blob, const Grid& grid,
                               std::span<const std::vector<geometry::Polygon>> footprints) -> bool;
 
+/// Whether a region is an annex that the scan has rounded: it ends where the outline does and leans on what is higher.
+[[nodiscard]] auto is_annex(const Blob& blob, const Surface& surface, std::span<const geometry::Polygon> outline)
+    -> bool;
+
 }  // namespace mansard::vegetation::detail
