@@ -146,12 +146,14 @@ auto stands_on_another(const model::City& city) -> bool {
   });
 }
 
-/// The truth as models and plans.
-auto add_models(const model::City& city, std::vector<std::pair<std::string, std::string>>& files)
+/// The truth as models and plans. Where a solid of a file is simpler than what is scanned, that is said.
+auto add_models(const model::City& city, std::vector<std::pair<std::string, std::string>>& files, Progress& progress)
     -> base::Result<void> {
   const auto solids = stands_on_another(city) ? formats::Solids::part : formats::Solids::building;
-  auto cityjson = formats::cityjson(city, solids);
+  std::vector<base::Diagnostic> warnings;
+  auto cityjson = formats::cityjson(city, solids, &warnings);
   if (!cityjson) return cityjson.failure();
+  say_all(warnings, progress);
   auto obj = formats::obj(city, "truth.mtl", solids);
   if (!obj) return obj.failure();
   files.emplace_back("truth.city.json", std::move(*cityjson));
@@ -175,7 +177,8 @@ auto write_all(const SimulateRequest& request, const simulate::Options& options,
       {"footprints.geojson", simulate::geojson(*footprints, truth.city.frame)},
       {"truth.geojson", simulate::geojson(simulate::true_footprints(truth), truth.city.frame)},
       {"truth.json", simulate::truth_json(truth, *footprints, options, source_of(request), scan->crowns)}};
-  if (auto added = truth.model ? add_copy(request, known, files) : add_models(truth.city, files); !added) return added;
+  if (auto added = truth.model ? add_copy(request, known, files) : add_models(truth.city, files, progress); !added)
+    return added;
   if (request.points > 0) {
     auto points = formats::las(simulate::airborne_points(*scan, request.points, run.seed), truth.city.frame);
     if (!points) return points.failure();

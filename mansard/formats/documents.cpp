@@ -1,5 +1,8 @@
 #include "mansard/formats/documents.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "mansard/base/outputs.hpp"
 #include "mansard/formats/cityjson/cityjson.hpp"
 #include "mansard/formats/detail/parts.hpp"
@@ -17,21 +20,23 @@ auto checked_keys(const model::City& city) -> base::Result<detail::Keys> {
 
 }  // namespace
 
-auto cityjson(const model::City& city, Solids solids) -> base::Result<std::string> {
+auto cityjson(const model::City& city, Solids solids, std::vector<base::Diagnostic>* warnings)
+    -> base::Result<std::string> {
   const auto keys = checked_keys(city);
   if (!keys) return keys.error();
   const Header header{city.frame, city.made_by};
   base::TextSink vertices;
-  std::vector<base::Diagnostic> warnings;
+  std::vector<base::Diagnostic> told;
   detail::CityJsonOptions options;
   options.solids = solids;
   options.lods = default_lods(Format::cityjson);
   detail::CityObjects text(header, options, vertices, 0);
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
-    text.add(city.buildings[b], {keys->buildings[b], keys->parts[b]}, warnings);
+    text.add(city.buildings[b], {keys->buildings[b], keys->parts[b]}, told);
   detail::JsonText json = detail::cityjson_head(header, options, text.extent(), 0);
   json.raw(text.end()).line().key("vertices").begin_array();
   if (!vertices.text.empty()) json.raw(vertices.text);
+  if (warnings) std::ranges::move(told, std::back_inserter(*warnings));
   return json.end_array().line().end_object().take() + "\n";
 }
 

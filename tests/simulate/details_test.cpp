@@ -4,6 +4,7 @@
 #include <ranges>
 
 #include "lab/simulate/simulate.hpp"
+#include "mansard/formats/documents.hpp"
 #include "mansard/rays/rays.hpp"
 #include "mansard/solid/solid.hpp"
 #include "simulate/apart.hpp"
@@ -67,6 +68,16 @@ TEST(Details, are_valid_solids_of_their_role_in_every_kind_of_block) {
   EXPECT_GT(rooms, 5U);
   EXPECT_GT(bays, 20U);
   EXPECT_GT(extensions, 10U);
+}
+
+TEST(Details, of_files_are_those_that_are_scanned) {
+  // The eaves of a wing between two courtyards run into each other.
+  BlockOptions options;
+  options.overhang = 0.3;
+  const auto truth = made(Kind::courtyard, options, 22);
+  std::vector<base::Diagnostic> warnings;
+  ASSERT_TRUE(formats::cityjson(truth.city, formats::Solids::building, &warnings));
+  EXPECT_THAT(warnings, testing::Each(testing::Field(&base::Diagnostic::code, testing::Ne("solid-simplified"))));
 }
 
 TEST(Details, leave_the_houses_themselves_as_they_are_without) {

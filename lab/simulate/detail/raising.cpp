@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lab/simulate/detail/party.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::simulate::detail {
 namespace {
@@ -22,6 +23,11 @@ auto raise_lot(const Lot& lot, double ground, const std::string& id, const base:
   options.grid = file_grid;
   options.overhang = lot.overhang;
   auto raised = extrude::raise(*plan, options, run);
+  // A soffit that runs into another one is a prism in files: the scan would show a roof that the truth has not.
+  if (lot.overhang > 0 && raised && !solid::check(raised->solid, solid::written_rules()).empty()) {
+    options.overhang = 0;
+    raised = extrude::raise(*plan, options, run);
+  }
   if (!raised) return base::error("simulate-solid", "nothing can be raised here: " + raised.error().message, id);
   if (raised->outcome != extrude::Outcome::full)
     return base::error("simulate-solid", "not raised in full: " + raised->warnings.front().message, id);
