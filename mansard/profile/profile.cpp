@@ -12,6 +12,7 @@
 #include "mansard/profile/detail/refine.hpp"
 #include "mansard/profile/detail/runs.hpp"
 #include "mansard/profile/detail/section_index.hpp"
+#include "mansard/rays/hidden.hpp"
 
 namespace mansard::profile {
 namespace {
@@ -141,8 +142,15 @@ struct Work {
   }
 };
 
-auto prepare(const segment::Part& part, const block::Block& block, const rays::Scene& mesh, const Options& options)
-    -> Work {
+auto sorted_heights(const std::vector<detail::RoofSample>& samples) -> std::vector<double> {
+  std::vector<double> heights;
+  for (const auto& sample : samples) heights.push_back(sample.height);
+  std::ranges::sort(heights);
+  return heights;
+}
+
+auto prepare(const segment::Part& part, const block::Block& block, const rays::Scene& mesh, const rays::Scene* above,
+             const Options& options) -> Work {
   Work work;
   work.base = ground_of(part, block);
   work.runs = detail::runs_of(part.polygon, options.run_angle);
@@ -150,10 +158,15 @@ auto prepare(const segment::Part& part, const block::Block& block, const rays::S
   work.evidence.resize(work.runs.size());
   work.chosen.assign(work.runs.size(), 0);
   work.samples = detail::look_over(mesh, part.polygon, work.base, options);
-  for (const auto& sample : work.samples) work.heights.push_back(sample.height);
-  std::ranges::sort(work.heights);
+  work.heights = sorted_heights(work.samples);
+  std::optional<double> hidden;
+  if (above)
+    hidden =
+        rays::hidden_height(work.heights, sorted_heights(detail::look_over(*above, part.polygon, work.base, options)));
+  if (hidden) work.samples.clear(), work.heights.clear();
   const double least = options.minimum_height;
   if (!work.heights.empty()) work.height = std::max(least, base::median_of_sorted(work.heights));
+  else if (hidden) work.height = std::max(least, *hidden);
   else work.height = part.height - work.base > least ? part.height - work.base : options.assumed_height;
   return work;
 }
@@ -221,13 +234,13 @@ auto alternatives_of(const Work& work) -> std::vector<std::vector<model::Profile
 }  // namespace
 
 auto fit(const segment::Segmentation& segmentation, const block::Block& block, const rays::Scene& mesh,
-         const Options& options, const base::Run& run) -> std::vector<ProfiledFootprint> {
+         const Options& options, const base::Run& run, const rays::Scene* above) -> std::vector<ProfiledFootprint> {
   run.report("profile", block.name, 0);
   const auto& parts = segmentation.parts;
   const detail::SectionIndex index(block.mesh);
 
   std::vector<Work> works(parts.size());
-  base::parallel_for(parts.size(), [&](std::size_t i) { works[i] = prepare(parts[i], block, mesh, options); });
+  base::parallel_for(parts.size(), [&](std::size_t i) { works[i] = prepare(parts[i], block, mesh, above, options); });
 
   // Runs, not parts, are the tasks: one part may own most of the edges.
   std::vector<std::pair<std::size_t, std::size_t>> tasks;

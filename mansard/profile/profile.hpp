@@ -32,9 +32,12 @@ struct ProfiledFootprint {
 /// Guarantees: 1 every profile starts at (0, 0) and never decreases, inward or upward · 2 an edge without evidence has
 /// a vertical profile · 3 caps lie between the footprint's lowest mesh height and `cap_clear`
 /// above its highest · 4 `simple` profiles are one
-/// vertical line. One entry per part of the segmentation, same order. `raw` slices come from `climb` in detail/.
+/// vertical line. `above`: the mesh with the crowns of trees, where `mesh` is without (null: there are none); a part
+/// that they hide ends where they rise. One entry per part of the segmentation, same order. `raw` slices come from
+/// `climb` in detail/.
 [[nodiscard]] auto fit(const segment::Segmentation& segmentation, const block::Block& block, const rays::Scene& mesh,
-                       const Options& options, const base::Run& run = {}) -> std::vector<ProfiledFootprint>;
+                       const Options& options, const base::Run& run = {}, const rays::Scene* above = nullptr)
+    -> std::vector<ProfiledFootprint>;
 
 /// The prior alone: one vertical profile for every edge; for footprints without usable evidence.
 [[nodiscard]] auto vertical_plan(const geometry::Polygon& polygon, double base, double cap) -> model::Plan;

@@ -229,6 +229,19 @@ TEST(Fit, without_any_mesh_assumes_walls) {
   EXPECT_GT(footprint.caps.front(), 0);
 }
 
+TEST(Fit, gives_a_part_below_a_crown_the_height_from_which_that_rises) {
+  House house;
+  house.roof = [](double x, double) { return 7 + 0.02 * x; };
+  const auto crown = scan(house);
+  const auto block = block_of({}, {outline(house)}, house.ground);
+  mansard::segment::Segmentation segmentation;
+  segmentation.parts.push_back(part_of(outline(house)));
+  const mansard::rays::Scene nothing({}), above(crown);
+  const auto hidden = mansard::profile::fit(segmentation, block, nothing, {}, {}, &above);
+  EXPECT_NEAR(hidden[0].plan.cap, 7, 0.3);
+  EXPECT_LT(mansard::profile::fit(segmentation, block, nothing, {})[0].plan.cap, 4) << "assumed";
+}
+
 TEST(Fit, takes_the_ground_of_the_parts_feature) {
   House house;
   house.roof = gable(9, 40 * degree);

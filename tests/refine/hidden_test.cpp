@@ -35,6 +35,20 @@ TEST(Hidden, parts_are_joined_with_what_is_seen_beside_them) {
   EXPECT_NEAR(geometry::area(model::polygon_of(joined.parts[0].plan)), 57, 0.1);
 }
 
+TEST(Hidden, an_annex_of_which_only_the_ground_beside_it_is_seen_keeps_its_height) {
+  const std::vector drafts{flat_draft(rectangle(0, 0, 6, 4), 4.5)};
+  const auto above = sheet({{-2, -2}, {8, 6}}, ground + 5);
+  const auto top_with = [&](double width, double height) {
+    const auto strip = sheet({{-2, -2}, {width, 6}}, ground + height);
+    const auto refined = refine::refine(drafts, strip, {}, {}, {}, &above);
+    EXPECT_EQ(refined.parts.size(), 1U);
+    return top_of(refined.parts[0].raised.solid);
+  };
+  EXPECT_NEAR(top_with(0.5, 0.1), ground + 4.5, 0.01);
+  EXPECT_LT(top_with(3, 0.1), ground + 4) << "half of it is seen: a yard";
+  EXPECT_NEAR(top_with(0.5, 3), ground + 3, 0.1) << "what is seen is roof";
+}
+
 TEST(Hidden, roofs_that_are_seen_are_the_same_below_a_mesh_without_crowns) {
   const auto truth = plan(rectangle(10, 20, 12, 8), {roof(5, 0.9), wall(5), roof(5, 0.9), wall(5)}, 12);
   const auto mesh = scan({truth});

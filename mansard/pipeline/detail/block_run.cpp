@@ -83,7 +83,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const Shown& shown, 
   const auto& block = shown.block();
   const auto& mesh = shown.mesh();
   base::Watch fitting;
-  const auto fitted = profile::fit(segmentation, block, mesh, profiling_of(options), run);
+  const auto fitted = profile::fit(segmentation, block, mesh, profiling_of(options), run, shown.above());
   out.report.times.stages.push_back({"profile", fitting.stop()});
 
   base::Watch refining;

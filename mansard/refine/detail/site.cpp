@@ -195,6 +195,12 @@ auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene
   return out;
 }
 
+auto without_cells(const Site& site, const Options& options) -> Site {
+  Site out{site.polygon, site.base, grid_over(site.polygon, site.measured.spacing), {}, {}, {}, {}, 0, {}, {}, {}, {}};
+  finish(out, options);
+  return out;
+}
+
 void add_ceilings(Site& site, const rays::Scene& above) {
   const auto& grid = site.measured;
   each_inside(site.polygon, grid, [&](std::size_t column, std::size_t row) {

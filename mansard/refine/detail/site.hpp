@@ -43,6 +43,8 @@ struct Site {
 [[nodiscard]] auto merged(const Site& a, const Site& b, const geometry::Polygon& both, const rays::Scene& mesh,
                           const Options& options) -> Site;
 
+/// The same of which nothing is seen.
+[[nodiscard]] auto without_cells(const Site& site, const Options& options) -> Site;
 /// Adds the ceilings: `above` is what is seen with the crowns of trees.
 void add_ceilings(Site& site, const rays::Scene& above);
 

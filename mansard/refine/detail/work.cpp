@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mansard/base/text.hpp"
+#include "mansard/rays/hidden.hpp"
 #include "mansard/refine/detail/dormers.hpp"
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
@@ -33,7 +34,13 @@ auto is_sound(const base::Result<extrude::Raised>& raised) -> bool {
 }  // namespace
 
 auto Work::look(const geometry::Polygon& polygon, double base) const -> Site {
-  return with_ceilings(detail::look(polygon, base, mesh_, options_));
+  const Site site = with_ceilings(detail::look(polygon, base, mesh_, options_));
+  if (site.cells.empty() || site.ceilings.empty()) return site;
+  std::vector<double> all = site.sorted;
+  for (const auto& [cell, height] : site.ceilings) all.push_back(height);
+  std::ranges::sort(all);
+  if (!rays::hidden_height(site.sorted, all)) return site;
+  return with_ceilings(detail::without_cells(site, options_));
 }
 
 auto Work::with_ceilings(Site site) const -> Site {
@@ -230,7 +237,7 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   for (const auto& polygon : polygons) fewest += cost_of_faces(polygon);
   if (fewest >= worth) return {};
   for (const auto& polygon : polygons) {
-    Site site = with_ceilings(crop(piece.site, polygon, options_));
+    const Site site = with_ceilings(crop(piece.site, polygon, options_));
     const double seen = site.cell_area * static_cast<double>(site.cells.size());
     if (site.cells.empty() || seen < options_.pieces.seen_share * geometry::area(polygon)) return {};
     Draft draft = draft_of(origin, site, options_);
