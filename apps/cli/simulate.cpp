@@ -153,6 +153,8 @@ auto add_models(const model::City& city, std::vector<std::pair<std::string, std:
   std::vector<base::Diagnostic> warnings;
   auto cityjson = formats::cityjson(city, solids, &warnings);
   if (!cityjson) return cityjson.failure();
+  std::erase_if(warnings,
+                [](const auto& warning) { return warning.code == "solid-not-united"; });  // as parts: as exact
   say_all(warnings, progress);
   auto obj = formats::obj(city, "truth.mtl", solids);
   if (!obj) return obj.failure();

@@ -65,11 +65,15 @@ auto heights_over(const rays::Scene& surface, const geometry::Polygon& polygon, 
   const auto box = geometry::bounds(polygon.outer);
   const geometry::Point2 extent = box.most - box.least;
   grid = std::max(grid, std::sqrt(extent.x * extent.y / most_samples));
+  constexpr double finest = 0.01;  // m; a strip may lie between two rows of samples
   std::vector<double> heights;
-  for (double y = std::ceil(box.least.y / grid) * grid; y <= box.most.y; y += grid)
-    for (double x = std::ceil(box.least.x / grid) * grid; x <= box.most.x; x += grid)
-      if (geometry::contains(polygon, geometry::Point2{x, y}))
-        if (const auto z = surface.top({x, y})) heights.push_back(*z);
+  for (bool any = false; !any && grid >= finest; grid /= 2)
+    for (double y = std::ceil(box.least.y / grid) * grid; y <= box.most.y; y += grid)
+      for (double x = std::ceil(box.least.x / grid) * grid; x <= box.most.x; x += grid)
+        if (geometry::contains(polygon, geometry::Point2{x, y})) {
+          any = true;
+          if (const auto z = surface.top({x, y})) heights.push_back(*z);
+        }
   std::ranges::sort(heights);
   return heights;
 }

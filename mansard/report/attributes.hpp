@@ -16,7 +16,7 @@ namespace mansard::report {
 [[nodiscard]] auto attributes() -> std::vector<formats::Attribute>;
 
 /// Heights of a top surface over a polygon, sorted; on a grid aligned to whole multiples of `grid`, coarser for
-/// polygons so large that it would not matter.
+/// polygons so large that it would not matter, and finer for those between whose edges no sample would lie.
 [[nodiscard]] auto heights_over(const rays::Scene& surface, const geometry::Polygon& polygon, double grid)
     -> std::vector<double>;
 

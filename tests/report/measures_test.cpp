@@ -22,6 +22,15 @@ auto value(const model::Attributes& attributes, std::string_view name) -> std::o
 /// 10 by 8 m, ground at 1.25, eaves at 7.25, ridge at 11.25.
 auto gabled_house() -> Building { return street().buildings[0]; }
 
+TEST(Heights, of_a_strip_between_two_rows_of_samples_are_those_below_it) {
+  const rays::Scene level({{{0, 0, 7}, {9, 0, 7}, {9, 9, 7}, {0, 9, 7}}, {{0, 1, 2}, {0, 2, 3}}});
+  const geometry::Polygon strip{{{1, 1.1}, {6, 1.1}, {6, 1.4}, {1, 1.4}}, {}};
+  const auto heights = report::heights_over(level, strip, 0.5);
+  ASSERT_FALSE(heights.empty());
+  EXPECT_EQ(heights.front(), 7);
+  EXPECT_TRUE(report::heights_over(level, {{{20, 1.1}, {26, 1.1}, {26, 1.4}, {20, 1.4}}, {}}, 0.5).empty());
+}
+
 TEST(BuildingMeasures, of_a_gabled_house_are_those_that_one_calculates) {
   auto house = gabled_house();
   house.parts[0].model.solid.faces[5].kind = house.parts[0].model.solid.faces[6].kind = FaceKind::side;
