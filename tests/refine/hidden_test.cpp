@@ -49,6 +49,30 @@ TEST(Hidden, an_annex_of_which_only_the_ground_beside_it_is_seen_keeps_its_heigh
   EXPECT_NEAR(top_with(0.5, 3), ground + 3, 0.1) << "what is seen is roof";
 }
 
+TEST(Hidden, an_annex_under_the_roof_of_its_house_is_cut_out_below_the_crown) {
+  // 13 by 6 m at 12 m; of the last 3 m a crown 6 m above the ground is all that is seen.
+  const std::vector drafts{flat_draft(rectangle(0, 0, 13, 6), 12)};
+  const auto seen = sheet({{-1, -1}, {10, 7}}, ground + 12);
+  const rays::Scene above({{{-1, -1, ground + 12},
+                            {10, -1, ground + 12},
+                            {10, 7, ground + 12},
+                            {-1, 7, ground + 12},
+                            {10, -1, ground + 6},
+                            {14, -1, ground + 6},
+                            {14, 7, ground + 6},
+                            {10, 7, ground + 6}},
+                           {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}});
+  const auto refined = refine::refine(drafts, seen, {}, {}, {}, &above);
+  ASSERT_EQ(refined.parts.size(), 2U);
+  std::vector<double> tops, areas;
+  for (const auto& part : refined.parts) tops.push_back(top_of(part.raised.solid) - ground);
+  for (const auto& part : refined.parts) areas.push_back(geometry::area(model::polygon_of(part.plan)));
+  const std::size_t low = tops[0] < tops[1] ? 0 : 1;
+  EXPECT_NEAR(tops[low], 6, 0.1);
+  EXPECT_NEAR(areas[low], 18, 2);
+  EXPECT_NEAR(tops[1 - low], 12, 0.1);
+}
+
 TEST(Hidden, roofs_that_are_seen_are_the_same_below_a_mesh_without_crowns) {
   const auto truth = plan(rectangle(10, 20, 12, 8), {roof(5, 0.9), wall(5), roof(5, 0.9), wall(5)}, 12);
   const auto mesh = scan({truth});

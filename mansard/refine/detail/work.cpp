@@ -21,6 +21,19 @@ namespace {
 /// What a crown hides may be joined with what is seen beside it.
 auto may_be_known(const Piece& piece) -> bool { return !piece.site.cells.empty() || !piece.site.ceilings.empty(); }
 
+/// How many cells of a part of the piece's ground have the piece's roof above the crown that hides them.
+auto too_high_over(const Site& part, const Piece& piece) -> std::size_t {
+  const auto& grid = piece.site.measured;
+  return static_cast<std::size_t>(std::ranges::count_if(part.ceilings, [&](const auto& hidden) {
+    const auto [cell, ceiling] = hidden;
+    const geometry::Point2 at = (1 / grid.spacing) * (part.measured.centre(cell) - grid.origin);
+    const auto column = std::lround(at.x), row = std::lround(at.y);
+    return column >= 0 && row >= 0 && column < static_cast<std::int64_t>(grid.columns) &&
+           row < static_cast<std::int64_t>(grid.rows) &&
+           piece.roof.view.z[static_cast<std::size_t>(row) * grid.columns + static_cast<std::size_t>(column)] > ceiling;
+  }));
+}
+
 auto square_metres(const Piece& piece) -> std::string {
   return base::to_text(geometry::area(piece.site.polygon), 1) + " m²";
 }
@@ -34,7 +47,11 @@ auto is_sound(const base::Result<extrude::Raised>& raised) -> bool {
 }  // namespace
 
 auto Work::look(const geometry::Polygon& polygon, double base) const -> Site {
-  const Site site = with_ceilings(detail::look(polygon, base, mesh_, options_));
+  return without_remnants(with_ceilings(detail::look(polygon, base, mesh_, options_)));
+}
+
+/// Nothing is seen of what crowns hide but for the ground beside it.
+auto Work::without_remnants(Site site) const -> Site {
   if (site.cells.empty() || site.ceilings.empty()) return site;
   std::vector<double> all = site.sorted;
   for (const auto& [cell, height] : site.ceilings) all.push_back(height);
@@ -104,9 +121,12 @@ auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> 
 
 /// Of the proposed cuts the one whose pieces cost least, if that is less than they are worth.
 auto Work::cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece> {
-  Heights model = piece.site.measured;
+  Heights model = piece.site.measured, measured = piece.site.measured;
   model.z = piece.roof.view.z;
-  return cheapest(piece, propose(piece.site.polygon, piece.site.measured, model, least_gain, options_), worth);
+  // Where the roof is above the crown that hides it, that is known.
+  for (const auto& [cell, ceiling] : piece.site.ceilings)
+    if (model.z[cell] > ceiling) measured.z[cell] = ceiling;
+  return cheapest(piece, propose(piece.site.polygon, measured, model, least_gain, options_), worth);
 }
 
 auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, double worth) const
@@ -237,9 +257,11 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   for (const auto& polygon : polygons) fewest += cost_of_faces(polygon);
   if (fewest >= worth) return {};
   for (const auto& polygon : polygons) {
-    const Site site = with_ceilings(crop(piece.site, polygon, options_));
-    const double seen = site.cell_area * static_cast<double>(site.cells.size());
-    if (site.cells.empty() || seen < options_.pieces.seen_share * geometry::area(polygon)) return {};
+    const Site site = without_remnants(with_ceilings(crop(piece.site, polygon, options_)));
+    const auto known = site.cells.size() + too_high_over(site, piece);
+    if (known == 0 ||
+        site.cell_area * static_cast<double>(known) < options_.pieces.seen_share * geometry::area(polygon))
+      return {};
     Draft draft = draft_of(origin, site, options_);
     const bool rest = out.empty() && !proposal.whole_side;  // its roof was found before; a little of it is gone
     const Search search = rest ? Search::settled : Search::quick;

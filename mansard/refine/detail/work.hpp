@@ -90,6 +90,7 @@ class Work {
   [[nodiscard]] auto beside_dormers(const Piece& piece, double most) const -> std::optional<Piece>;
   [[nodiscard]] auto dormers_of(const Judged& roof, const Site& all) const -> std::pair<std::vector<Dormer>, double>;
   [[nodiscard]] auto with_ceilings(Site site) const -> Site;
+  [[nodiscard]] auto without_remnants(Site site) const -> Site;
   [[nodiscard]] auto both_of(const Piece& a, const Piece& b, const geometry::Polygon& both) const -> Site;
   [[nodiscard]] auto cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece>;
   [[nodiscard]] auto cheapest(const Piece& piece, const std::vector<Proposal>& proposals, double worth) const
