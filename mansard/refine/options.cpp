@@ -211,7 +211,7 @@ void add_pieces(OptionList& list, Options::Pieces& o) {
       .advanced(by_hand)
       .number(
           "pieces_seen_share", o.seen_share, "", share,
-          "No piece is cut out of which the scan shows less than this share: crowns hide the rest, or it has holes.")
+          "No piece is cut out of which less than this share is known: crowns hide the rest, or the scan has holes.")
       .advanced(by_hand)
       .number("pieces_min_width", o.min_width, "m", length,
               "A piece with a smaller mean width is a strip along an edge, and the cut is not made.")
