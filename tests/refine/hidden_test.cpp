@@ -38,13 +38,17 @@ TEST(Hidden, parts_are_joined_with_what_is_seen_beside_them) {
 TEST(Hidden, an_annex_of_which_only_the_ground_beside_it_is_seen_keeps_its_height) {
   const std::vector drafts{flat_draft(rectangle(0, 0, 6, 4), 4.5)};
   const auto above = sheet({{-2, -2}, {8, 6}}, ground + 5);
+  bool says_so = false;
   const auto top_with = [&](double width, double height) {
     const auto strip = sheet({{-2, -2}, {width, 6}}, ground + height);
     const auto refined = refine::refine(drafts, strip, {}, {}, {}, &above);
     EXPECT_EQ(refined.parts.size(), 1U);
+    says_so = !refined.parts[0].changes.empty() &&
+              refined.parts[0].changes.back() == "the crown of a tree hides it: its height, 4.5 m, is a guess";
     return top_of(refined.parts[0].raised.solid);
   };
   EXPECT_NEAR(top_with(0.5, 0.1), ground + 4.5, 0.01);
+  EXPECT_TRUE(says_so);
   EXPECT_LT(top_with(3, 0.1), ground + 4) << "half of it is seen: a yard";
   EXPECT_NEAR(top_with(0.5, 3), ground + 3, 0.1) << "what is seen is roof";
 }

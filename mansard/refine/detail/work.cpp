@@ -349,6 +349,9 @@ auto Work::dormers_of(const Judged& roof, const Site& all) const -> std::pair<st
 }
 
 auto Work::finished(Piece piece) const -> Piece {
+  if (piece.site.cells.empty() && !piece.site.ceilings.empty())
+    piece.changes.push_back("the crown of a tree hides it: its height, " + base::to_text(piece.roof.plan.cap, 1) +
+                            " m, is a guess");
   const bool keep = options_.effort == Effort::caps || piece.site.cells.empty() ||
                     piece.roof.wrong() < options_.face_price || run_.cancelled();
   if (keep) return piece;
