@@ -64,10 +64,11 @@ auto heights_over(const rays::Scene& surface, const geometry::Polygon& polygon, 
   constexpr double most_samples = 250'000;
   const auto box = geometry::bounds(polygon.outer);
   const geometry::Point2 extent = box.most - box.least;
-  grid = std::max(grid, std::sqrt(extent.x * extent.y / most_samples));
+  const double least_grid = std::sqrt(extent.x * extent.y / most_samples);
+  grid = std::max(grid, least_grid);
   constexpr double finest = 0.01;  // m; a strip may lie between two rows of samples
   std::vector<double> heights;
-  for (bool any = false; !any && grid >= finest; grid /= 2)
+  for (bool any = false; !any && grid >= std::max(finest, least_grid); grid /= 2)
     for (double y = std::ceil(box.least.y / grid) * grid; y <= box.most.y; y += grid)
       for (double x = std::ceil(box.least.x / grid) * grid; x <= box.most.x; x += grid)
         if (geometry::contains(polygon, geometry::Point2{x, y})) {
