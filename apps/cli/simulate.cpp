@@ -93,10 +93,8 @@ auto known_of_model(const SimulateRequest& request, const base::Run& run, Progre
 
 auto truth_for(const SimulateRequest& request, const simulate::Options& options, const base::Run& run,
                Progress& progress) -> base::Result<simulate::Truth> {
-  if (!request.block.empty()) {
-    const auto kind = simulate::kind_of(request.block);
+  if (const auto kind = simulate::kind_of(request.block))
     return simulate::make_block(*kind, options.block, run.seed, run);
-  }
   ingest::Options ingest;
   if (!request.box.empty()) std::ranges::copy(request.box, ingest.bbox.begin());
   const auto scene = ingest::read_footprints(request.footprints, ingest, run);

@@ -257,7 +257,7 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   for (const auto& polygon : polygons) fewest += cost_of_faces(polygon);
   if (fewest >= worth) return {};
   for (const auto& polygon : polygons) {
-    const Site site = without_remnants(with_ceilings(crop(piece.site, polygon, options_)));
+    Site site = without_remnants(with_ceilings(crop(piece.site, polygon, options_)));
     const auto known = site.cells.size() + too_high_over(site, piece);
     if (known == 0 ||
         site.cell_area * static_cast<double>(known) < options_.pieces.seen_share * geometry::area(polygon))
