@@ -1,8 +1,5 @@
 #include "mansard/formats/documents.hpp"
 
-#include <algorithm>
-#include <iterator>
-
 #include "mansard/base/outputs.hpp"
 #include "mansard/formats/cityjson/cityjson.hpp"
 #include "mansard/formats/detail/parts.hpp"
@@ -26,17 +23,16 @@ auto cityjson(const model::City& city, Solids solids, std::vector<base::Diagnost
   if (!keys) return keys.error();
   const Header header{city.frame, city.made_by};
   base::TextSink vertices;
-  std::vector<base::Diagnostic> told;
+  std::vector<base::Diagnostic> unheard;
   detail::CityJsonOptions options;
   options.solids = solids;
   options.lods = default_lods(Format::cityjson);
   detail::CityObjects text(header, options, vertices, 0);
   for (std::size_t b = 0; b < city.buildings.size(); ++b)
-    text.add(city.buildings[b], {keys->buildings[b], keys->parts[b]}, told);
+    text.add(city.buildings[b], {keys->buildings[b], keys->parts[b]}, warnings ? *warnings : unheard);
   detail::JsonText json = detail::cityjson_head(header, options, text.extent(), 0);
   json.raw(text.end()).line().key("vertices").begin_array();
   if (!vertices.text.empty()) json.raw(vertices.text);
-  if (warnings) std::ranges::move(told, std::back_inserter(*warnings));
   return json.end_array().line().end_object().take() + "\n";
 }
 

@@ -85,17 +85,12 @@ void lower(std::vector<double>& floor, const Blob& blob, const Surface& surface,
   };
   for (const auto c : blob.cells) {
     if (is_roof(c)) continue;
-    const auto column = static_cast<std::int64_t>(c % grid.columns), row = static_cast<std::int64_t>(c / grid.columns);
-    for (std::int64_t y = row - reach; y <= row + reach; ++y)
-      for (std::int64_t x = column - reach; x <= column + reach; ++x) {
-        if (x < 0 || y < 0 || x >= static_cast<std::int64_t>(grid.columns) || y >= static_cast<std::int64_t>(grid.rows))
-          continue;
-        const auto cell = static_cast<std::size_t>(y) * grid.columns + static_cast<std::size_t>(x);
-        const double top = surface.top[cell];
-        if (!(top > lowest - below)) continue;
-        const double under = surface.under[cell];
-        floor[cell] = std::min(floor[cell], (std::isnan(under) ? top : under) - deeper);
-      }
+    detail::each_around(grid, c, reach, [&](std::size_t cell, std::int64_t, std::int64_t) {
+      const double top = surface.top[cell];
+      if (!(top > lowest - below)) return;
+      const double under = surface.under[cell];
+      floor[cell] = std::min(floor[cell], (std::isnan(under) ? top : under) - deeper);
+    });
   }
 }
 

@@ -134,6 +134,11 @@ auto spacing_over(const Polygon& polygon, const Options& options) -> double {
   return options.grid * std::max(1.0, coarser);
 }
 
+/// Before anything is sampled.
+auto unseen_over(const Polygon& polygon, double base, double spacing) -> Site {
+  return {polygon, base, grid_over(polygon, spacing), {}, {}, {}, {}, 0, {}, {}, {}, {}};
+}
+
 /// The cells of one grid by those of another of the same spacing.
 class Cells {
  public:
@@ -156,7 +161,7 @@ class Cells {
 }  // namespace
 
 auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Options& options) -> Site {
-  Site site{polygon, base, grid_over(polygon, spacing_over(polygon, options)), {}, {}, {}, {}, 0, {}, {}, {}, {}};
+  Site site = unseen_over(polygon, base, spacing_over(polygon, options));
   auto& grid = site.measured;
   each_inside(polygon, grid, [&](std::size_t column, std::size_t row) {
     if (const auto z = mesh.top_inside_walls(grid.centre(column, row), base))
@@ -167,7 +172,7 @@ auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Op
 }
 
 auto crop(const Site& site, const Polygon& piece, const Options& options) -> Site {
-  Site out{piece, site.base, grid_over(piece, site.measured.spacing), {}, {}, {}, {}, 0, {}, {}, {}, {}};
+  Site out = unseen_over(piece, site.base, site.measured.spacing);
   auto& grid = out.measured;
   const Cells cells(site.measured, grid);
   each_inside(piece, grid, [&](std::size_t column, std::size_t row) {
@@ -179,7 +184,7 @@ auto crop(const Site& site, const Polygon& piece, const Options& options) -> Sit
 
 auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene& mesh, const Options& options)
     -> Site {
-  Site out{both, a.base, grid_over(both, spacing_over(both, options)), {}, {}, {}, {}, 0, {}, {}, {}, {}};
+  Site out = unseen_over(both, a.base, spacing_over(both, options));
   auto& grid = out.measured;
   if (a.measured.spacing != grid.spacing || b.measured.spacing != grid.spacing)
     return look(both, a.base, mesh, options);
@@ -196,7 +201,7 @@ auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene
 }
 
 auto without_cells(const Site& site, const Options& options) -> Site {
-  Site out{site.polygon, site.base, grid_over(site.polygon, site.measured.spacing), {}, {}, {}, {}, 0, {}, {}, {}, {}};
+  Site out = unseen_over(site.polygon, site.base, site.measured.spacing);
   finish(out, options);
   return out;
 }
@@ -209,6 +214,15 @@ void add_ceilings(Site& site, const rays::Scene& above) {
     if (const auto z = above.top(grid.centre(cell)))
       site.ceilings.emplace_back(static_cast<std::uint32_t>(cell), *z - site.base);
   });
+}
+
+auto too_high_over(const Site& part, const Heights& grid, const std::vector<double>& roof) -> std::size_t {
+  const Cells cells(grid, part.measured);
+  const std::size_t columns = part.measured.columns;
+  return static_cast<std::size_t>(std::ranges::count_if(part.ceilings, [&](const auto& hidden) {
+    const auto cell = cells.of(hidden.first % columns, hidden.first / columns);
+    return cell && roof[*cell] > hidden.second;
+  }));
 }
 
 auto commonest(const std::vector<double>& sorted, const Options& options) -> double {

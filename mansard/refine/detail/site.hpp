@@ -48,6 +48,10 @@ struct Site {
 /// Adds the ceilings: `above` is what is seen with the crowns of trees.
 void add_ceilings(Site& site, const rays::Scene& above);
 
+/// Over how many cells of a part of some ground the roof of that ground is above the crown that hides it. `roof`:
+/// heights by the cells of the grid of that ground, which has the spacing of the part's.
+[[nodiscard]] auto too_high_over(const Site& part, const Heights& grid, const std::vector<double>& roof) -> std::size_t;
+
 /// The middle of the band of height (`Options::Samples::level_band`) that contains the most samples: the level of a
 /// flat roof, whatever is built on it.
 [[nodiscard]] auto commonest(const std::vector<double>& sorted, const Options& options) -> double;

@@ -21,19 +21,6 @@ namespace {
 /// What a crown hides may be joined with what is seen beside it.
 auto may_be_known(const Piece& piece) -> bool { return !piece.site.cells.empty() || !piece.site.ceilings.empty(); }
 
-/// How many cells of a part of the piece's ground have the piece's roof above the crown that hides them.
-auto too_high_over(const Site& part, const Piece& piece) -> std::size_t {
-  const auto& grid = piece.site.measured;
-  return static_cast<std::size_t>(std::ranges::count_if(part.ceilings, [&](const auto& hidden) {
-    const auto [cell, ceiling] = hidden;
-    const geometry::Point2 at = (1 / grid.spacing) * (part.measured.centre(cell) - grid.origin);
-    const auto column = std::lround(at.x), row = std::lround(at.y);
-    return column >= 0 && row >= 0 && column < static_cast<std::int64_t>(grid.columns) &&
-           row < static_cast<std::int64_t>(grid.rows) &&
-           piece.roof.view.z[static_cast<std::size_t>(row) * grid.columns + static_cast<std::size_t>(column)] > ceiling;
-  }));
-}
-
 auto square_metres(const Piece& piece) -> std::string {
   return base::to_text(geometry::area(piece.site.polygon), 1) + " m²";
 }
@@ -258,7 +245,7 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   if (fewest >= worth) return {};
   for (const auto& polygon : polygons) {
     Site site = without_remnants(with_ceilings(crop(piece.site, polygon, options_)));
-    const auto known = site.cells.size() + too_high_over(site, piece);
+    const auto known = site.cells.size() + too_high_over(site, piece.site.measured, piece.roof.view.z);
     if (known == 0 ||
         site.cell_area * static_cast<double>(known) < options_.pieces.seen_share * geometry::area(polygon))
       return {};

@@ -163,8 +163,10 @@ auto fits_the_other_way(const std::vector<Match>& matches, const Common& found, 
       const Point2 other{i * step, j * step};
       if (dot(other, found.shift) > 0 || length(other) < o.registration_minimum_shift || length(other) > reach)
         continue;
-      for (const double outward : {0.0, found.outward})
-        if ((1 - o.registration_explains) * left_over(matches, {other, outward}, o) <= left) return true;
+      const auto fits = [&](double outward) {
+        return (1 - o.registration_explains) * left_over(matches, {other, outward}, o) <= left;
+      };
+      if (fits(0) || (found.outward != 0 && fits(found.outward))) return true;
     }
   return false;
 }

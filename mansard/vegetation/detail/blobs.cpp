@@ -365,21 +365,14 @@ auto is_annex(const Blob& blob, const Surface& surface, std::span<const geometry
   std::vector<std::uint8_t> counted(grid.size(), 0);
   for (const auto c : blob.cells) counted[c] = 1;
   std::size_t beside = 0, outside = 0, high = 0;
-  for (const auto c : blob.cells) {
-    const auto column = static_cast<std::int64_t>(c % grid.columns), row = static_cast<std::int64_t>(c / grid.columns);
-    for (std::int64_t y = row - reach; y <= row + reach; ++y)
-      for (std::int64_t x = column - reach; x <= column + reach; ++x) {
-        if ((x - column) * (x - column) + (y - row) * (y - row) > reach * reach) continue;
-        if (x < 0 || y < 0 || x >= static_cast<std::int64_t>(grid.columns) || y >= static_cast<std::int64_t>(grid.rows))
-          continue;
-        const auto cell = static_cast<std::size_t>(y) * grid.columns + static_cast<std::size_t>(x);
-        if (counted[cell] != 0) continue;
-        counted[cell] = 1;
-        ++beside;
-        if (!geometry::contains(outline, grid.centre(cell))) ++outside;
-        else if (surface.top[cell] > blob.seen.top) ++high;
-      }
-  }
+  for (const auto c : blob.cells)
+    each_around(grid, c, reach, [&](std::size_t cell, std::int64_t x, std::int64_t y) {
+      if (x * x + y * y > reach * reach || counted[cell] != 0) return;
+      counted[cell] = 1;
+      ++beside;
+      if (!geometry::contains(outline, grid.centre(cell))) ++outside;
+      else if (surface.top[cell] > blob.seen.top) ++high;
+    });
   const auto all = static_cast<double>(beside);
   return static_cast<double>(outside) >= least_outside * all && static_cast<double>(high) >= least_high * all;
 }

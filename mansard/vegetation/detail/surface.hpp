@@ -26,6 +26,19 @@ struct Grid {
   }
 };
 
+/// Calls go(cell, columns, rows) for the cells of the square of 2 · reach + 1 cells around one, with how far off they
+/// are.
+template <class Go>
+void each_around(const Grid& grid, std::size_t cell, std::int64_t reach, Go go) {
+  const auto column = static_cast<std::int64_t>(cell % grid.columns);
+  const auto row = static_cast<std::int64_t>(cell / grid.columns);
+  for (std::int64_t y = -reach; y <= reach; ++y)
+    for (std::int64_t x = -reach; x <= reach; ++x)
+      if (column + x >= 0 && row + y >= 0 && column + x < static_cast<std::int64_t>(grid.columns) &&
+          row + y < static_cast<std::int64_t>(grid.rows))
+        go(static_cast<std::size_t>(row + y) * grid.columns + static_cast<std::size_t>(column + x), x, y);
+}
+
 struct Surface {
   Grid grid;
   std::vector<double> top;    ///< z, metres; NaN where nothing is
