@@ -418,8 +418,7 @@ test("two runs are compared side by side, with the error map, the plots and the 
   const id = (await buildings(page)).reduce((a, b) => ((b.mse ?? 0) > (a.mse ?? 0) ? b : a)).id;
   await expect(worst.getByRole("gridcell").first(), "sorting shows the first rows, wherever the selected one is").toHaveText(id);
   await worst.click();
-  const selected = () => page.evaluate(() => (window as unknown as Known["window"]).mansard.state.selection.value?.building);
-  expect(await selected()).toBe(id);
+  await expect.poll(() => state(page, (s) => s.selection.value?.building)).toBe(id);
   await page.keyboard.press("l");
   await page.getByRole("dialog", { name: "Layers" }).getByLabel(/error/i).first().check();
   await picture(page, "error");
