@@ -17,6 +17,7 @@ mansard_module(ingest   DEPENDS base geometry model crs formats cloud           
 
 mansard_module(texture  DEPENDS base geometry model formats ingest)
 mansard_module(block    DEPENDS base geometry model                             TESTED_WITH ingest)
+mansard_module(accuracy DEPENDS base geometry rays model                        TESTED_WITH simulate extrude)
 mansard_module(vegetation DEPENDS base geometry)
 mansard_module(slice    DEPENDS base geometry block)
 mansard_module(sweep    DEPENDS base geometry rays block slice)
@@ -33,7 +34,7 @@ mansard_module(roof     DEPENDS base geometry model extrude)
 mansard_module(terrain  DEPENDS base geometry model solid)
 mansard_module(picture  DEPENDS base geometry rays                              USES PNG::PNG)
 mansard_module(report   DEPENDS base geometry rays model solid formats texture sweep fracture segment label evaluate picture USES nlohmann_json TESTED_WITH pipeline)
-mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats cloud ingest block vegetation slice sweep fracture segment profile extrude refine label evaluate derive align roof terrain picture report texture)
+mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats cloud ingest block accuracy vegetation slice sweep fracture segment profile extrude refine label evaluate derive align roof terrain picture report texture)
 mansard_module(edit     DEPENDS base geometry rays model solid formats ingest extrude label evaluate report pipeline USES nlohmann_json)
 
 # Experiments: used by the programs and the tests, not part of what is installed.

@@ -18,6 +18,7 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   lists.push_back(cloud::option_list(options.ingest.cloud));
   lists.push_back(derive::option_list(options.derive));
   lists.push_back(block::option_list(options.block));
+  lists.push_back(accuracy::option_list(options.accuracy));
   lists.push_back(vegetation::option_list(options.vegetation));
   lists.push_back(slice::option_list(options.slice));
   lists.push_back(sweep::option_list(options.sweep));

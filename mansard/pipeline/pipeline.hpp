@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mansard/accuracy/accuracy.hpp"
 #include "mansard/base/options.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
@@ -40,6 +41,7 @@ struct Options {
   ingest::Options ingest;
   derive::Options derive;
   block::Options block;
+  accuracy::Options accuracy;
   vegetation::Options vegetation;
   slice::Options slice;
   sweep::Options sweep;

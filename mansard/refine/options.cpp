@@ -32,50 +32,26 @@ void add_objective(OptionList& list, Options& o) {
   list.choice("effort", o.effort, {{"caps", Effort::caps}, {"planes", Effort::planes}, {"parts", Effort::parts}},
               "What may be changed by measured error: the height caps; the profiles too; or the plan as well.")
       .source(decision_14)
+      .number("detail", o.detail, "m", {0.001, 10},
+              "The smallest detail of interest: a step in height of this size over refine.least_area. What the scan shows "
+              "more finely is left out.")
+      .source("half of the smallest step that LoD 2.2 models of agencies show; docs/accuracy.md")
+      .number("significance", o.significance, "", {0.01, 100},
+              "How many times the description length of a number, in the measured noise of the scan, the number must "
+              "explain to be modelled.")
+      .source("1: description length (Rissanen 1978); docs/accuracy.md")
       .number("grid", o.grid, "m", {0.05, 5}, "Distance between the samples of mesh and roof, seen from above.")
       .source("a quarter of a metre is what photogrammetry resolves; not measured")
-      .number("face_price", o.face_price, "m²·m²", {0, 1000},
-              "An additional face must reduce the sum of squared differences by this much.")
-      .source(decision_14)
-      .number("part_price", o.part_price, "m²·m²", {0, 1000},
-              "An additional building part must reduce the sum of squared differences by this much, beside the price "
-              "of its faces.")
-      .source(decision_16)
-      .number("value_price", o.value_price, "m²·m²", {0, 1000},
-              "An eaves height, ridge height or pitch that differs from the others of the building and its row must "
-              "reduce the sum of squared differences by this much; 0: nothing is made equal.")
-      .source(decision_39)
-      .number("moderate_factor", o.moderate_factor, "", {1, 1000},
-              "The prices of faces, parts and values are multiplied by this with profile.quality = moderate.")
-      .source(decision_47)
       .number("robust", o.robust, "m", {0.05, 100},
               "Differences from the mesh greater than this count linearly, not squared: trees, debris.")
-      .source(decision_14)
-      .number("margin", o.margin, "m", {0, 5},
-              "Samples within this distance of a part's outline count less, because scans round off walls.")
       .source(decision_14)
       .number("least_area", o.least_area, "m²", {0.5, 1000},
               "A structure with a smaller ground area stays with the roof around it.")
       .source(by_hand);
 }
 
-void add_samples(OptionList& list, Options::Samples& o) {
-  list.number("samples_margin_weight", o.margin_weight, "", share,
-              "Weight of a sample within the margin of a part's outline; all other samples have weight 1.")
-      .advanced(by_hand)
-      .number("samples_melt", o.melt, "m", length,
-              "A scan rounds off whatever is nearer to a wall or a crease than this; such samples are not read where a "
-              "wall or a plane is placed.")
-      .advanced(
-          "two and a half times the smoothing of a fair scan (0.2 m): beyond it, a crease does not move a "
-          "surface; not measured");
-}
-
 void add_lines(OptionList& list, Options::Lines& o) {
-  list.number("lines_robust", o.robust, "m", {0.001, 100},
-              "Samples farther than this from a fitted line count linearly, not squared.")
-      .advanced("three times the noise of a fair scan; not measured")
-      .integer("lines_rounds", o.rounds, "", count, "Number of times that the samples of a line are weighted again.")
+  list.integer("lines_rounds", o.rounds, "", count, "Number of times that the samples of a line are weighted again.")
       .advanced("reweighing converges well before; not measured")
       .integer("lines_min_samples", o.min_samples, "", {2, 10'000},
                "A line is fitted to at least this many samples; each side of a split has as many.")
@@ -346,11 +322,8 @@ void add_cuts(OptionList& list, Options::Cuts& o) {
 }
 
 void add_dormers(OptionList& list, Options::Dormers& o) {
-  list.number(
-          "dormers_price", o.price, "m²·m²", {0, 1e9},
-          "A dormer must reduce the sum of squared differences by this much; 0 looks for none. It is a few numbers on "
-          "a slope, so it is cheaper than a part.")
-      .advanced(decision_87)
+  list.flag("dormers", o.wanted, "Whether dormers are looked for on the slopes of roofs.")
+      .source(decision_87)
       .number("dormers_min_width", o.min_width, "m", positive_length, "The minimum width of a dormer.")
       .advanced("dormers of 1.2 m and more, less half a sample")
       .number("dormers_max_width", o.max_width, "m", positive_length,
@@ -503,7 +476,6 @@ void add_surfaces(OptionList& list, Options::Surfaces& o) {
 auto option_list(Options& o) -> OptionList {
   OptionList list("refine");
   add_objective(list, o);
-  add_samples(list, o.samples);
   add_lines(list, o.lines);
   add_forms(list, o.forms);
   add_mansard(list, o.mansard);

@@ -14,30 +14,36 @@ enum class Effort : std::uint8_t {
   parts,   ///< and the plan: parts under one roof are joined, structures of another height become parts of their own
 };
 
-/// The first nine are the objective. The groups are the search's own numbers, by the file of `detail/` that uses them:
+/// The first six are what a user may ask for. The groups are the search's own numbers, by the file of `detail/` that uses them:
 /// advanced options, of which few are measured; `option_list` gives meaning, range and source of each.
 struct Options {
   Effort effort = Effort::parts;
-  double grid = 0.25;            ///< m between samples seen from above
-  double face_price = 0.3;       ///< m² · m²; what an additional face must take off the sum of squared differences
-  double part_price = 2.0;       ///< the same, of an additional part, beside its faces
-  double value_price = 0.1;      ///< the same, of a height or pitch that differs from all others
-  double moderate_factor = 4.0;  ///< on the three prices, with profile.quality = moderate
+  double detail = 0.1;         ///< m; the smallest step on `least_area` that is of interest
+  double significance = 1.0;   ///< how many times what noise explains by chance a number must explain
+  double grid = 0.25;          ///< m between samples seen from above
+  double least_area = 4.0;     ///< m²; smaller structures stay with the roof they are on
   double robust = 3.0;           ///< m; greater differences count linearly, not squared: trees, debris
-  double margin = 0.4;           ///< m along the outline where a melted scan counts less
-  double least_area = 4.0;       ///< m²; smaller structures stay with the roof they are on
+
+  // No options: `decided_by` (law.hpp) sets them by the accuracy of the scan. These are those of a fair photogrammetric
+  // mesh, with a noise of 0.1 m over 10 m².
+  double face_price = 0.3;   ///< m² · m²; what an additional face must take off the sum of squared differences
+  double part_price = 2.0;   ///< the same, of an additional part, beside its faces
+  double value_price = 0.1;  ///< the same, of a height or pitch that differs from all others
+  double same_cost = 1e-3;   ///< the same; costs nearer to each other are equal
+  double margin = 0.4;       ///< m along the outline where samples count less
 
   /// What the mesh shows, and how much a sample counts (site, refit, and wherever a wall is near).
   struct Samples {
-    double margin_weight = 0.2;
+    double margin_weight = 0.2;  ///< no option: decided_by
     static constexpr double max_cells = 150'000;  ///< bounds memory: a hall of 9,000 m² is still sampled at 0.25 m
     double level_band = 0.5;                      ///< m; no option: profile.cap_level
-    double melt = 0.5;                            ///< m
+    double melt = 0.5;   ///< m; no option: decided_by
+    double blur = 0.25;  ///< m; no option: decided_by
   } samples;
 
   /// Robust lines through heights (lines).
   struct Lines {
-    double robust = 0.25;  ///< m
+    double robust = 0.25;  ///< m; no option: decided_by
     std::int64_t rounds = 8;
     std::int64_t min_samples = 12;
     double min_spread = 0.25;  ///< m
@@ -183,7 +189,8 @@ struct Options {
 
   /// Dormers on slopes, parts of their own (dormers).
   struct Dormers {
-    double price = 0.15;     ///< m² · m²; 0: no dormers
+    bool wanted = true;
+    double price = 0.15;     ///< m² · m²; 0: no dormers; else no option: decided_by
     double min_width = 1.1;  ///< m
     double max_width = 5;    ///< m
     double min_rise = 0.6;   ///< m
@@ -258,7 +265,7 @@ struct Options {
   } surfaces;
 };
 
-/// The eight of the objective, then the groups as advanced options: `Options::wings.min_length` is `wings_min_length`.
+/// The six, then the groups as advanced options: `Options::wings.min_length` is `wings_min_length`.
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
 }  // namespace mansard::refine

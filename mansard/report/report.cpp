@@ -62,6 +62,21 @@ auto json_of(const evaluate::Scores& s) -> Json {
           {"invented_m2", s.invented}};
 }
 
+/// What was not measured is null; what is assumed in its place is in the options.
+auto json_of(const model::Accuracy& a) -> Json {
+  const auto if_measured = [](std::size_t from, double value) { return from > 0 ? Json(value) : Json(nullptr); };
+  return {{"noise_m", a.noise},
+          {"correlated_area_m2", a.correlated_area},
+          {"spacing_m", a.spacing},
+          {"blur_m", a.blur},
+          {"edge_noise_m", a.edge_noise},
+          {"walls_seen", a.walls},
+          {"offset_m", a.edges > 0 ? Json{a.offset.x, a.offset.y} : Json(nullptr)},
+          {"offset_error_m", if_measured(a.edges, a.offset_error)},
+          {"offset_spread_m", if_measured(a.edges, a.offset_spread)},
+          {"measured", {{"discs", a.windows}, {"transects", a.transects}, {"edges", a.edges}}}};
+}
+
 /// Scores are of models; blocks that are only segmented have none.
 auto json_of(const BlockReport& b, bool with_scores) -> Json {
   Json objective = Json::object();
@@ -85,7 +100,8 @@ auto json_of(const BlockReport& b, bool with_scores) -> Json {
            {"candidate_edges", b.candidates},
            {"variables", b.variables},
            {"conflicts", b.conflicts},
-           {"objective", std::move(objective)}};
+           {"objective", std::move(objective)},
+           {"accuracy", json_of(b.accuracy)}};
   if (with_scores) out["scores"] = json_of(b.scores);
   out["times"] = json_of(b.times);
   return out;

@@ -18,6 +18,7 @@
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/fracture/fracture.hpp"
 #include "mansard/label/label.hpp"
+#include "mansard/model/accuracy.hpp"
 #include "mansard/model/city.hpp"
 #include "mansard/model/scene.hpp"
 #include "mansard/segment/segment.hpp"
@@ -54,6 +55,7 @@ struct BlockReport {
   double objective = 0, bound = 0;
   std::string status;
   std::int64_t rounds = 0, nodes = 0;
+  model::Accuracy accuracy;  ///< of the scan over it
   evaluate::Scores scores;
   Times times;
 };

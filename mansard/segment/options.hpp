@@ -73,7 +73,7 @@ struct Options {
 
   // GIS edges.
   double gis_near = 0.2;           ///< m; as far as the other member's boundary, or a wall, may be off a GIS edge
-  double gis_shortest = 0.2;       ///< m; of a stretch of GIS edge, and of a gap between stretches
+  double gis_shortest = 0.05;      ///< m; of a stretch of GIS edge, and of a gap between stretches
   double gis_parallel_sine = 0.1;  ///< sine of the angle between a GIS edge and what runs along it
 
   // From faces to parts.

@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "mansard/extrude/align.hpp"
+#include "mansard/refine/law.hpp"
 
 namespace mansard::pipeline::detail {
 namespace {
@@ -60,15 +61,18 @@ auto profiling_of(const Options& options) -> profile::Options {
   return out;
 }
 
+/// Twice the smallest detail and noise: prices are their squares (docs/decisions/0047-moderate-detail.md).
+constexpr double fewer_details = 4;
+
 /// A request for simpler profiles is not answered with finer ones by the refinement.
-auto refining_of(const Options& options) -> refine::Options {
-  refine::Options out = options.refine;
+auto refining_of(const Options& options, const model::Accuracy& accuracy) -> refine::Options {
+  refine::Options out = refine::decided_by(options.refine, accuracy);
   out.forms.cap_percentile = options.profile.cap_ridge;
   out.forms.cap_clearance = options.profile.cap_clear;
   out.samples.level_band = options.profile.cap_level;
   if (options.profile.quality == profile::Quality::simple) out.effort = refine::Effort::caps;
   if (options.profile.quality == profile::Quality::moderate)
-    for (double* price : {&out.face_price, &out.part_price, &out.value_price}) *price *= out.moderate_factor;
+    for (double* price : {&out.face_price, &out.part_price, &out.value_price}) *price *= fewer_details;
   return out;
 }
 
@@ -103,7 +107,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const Shown& shown, 
     part_of_draft.push_back(i);
     drafts.push_back({feature, fitted[i].plan, fitted[i].caps, fitted[i].alternatives});
   }
-  auto refined = refine::refine(drafts, mesh, refining_of(options), with_grid(options.extrude), run, shown.above());
+  auto refined = refine::refine(drafts, mesh, refining_of(options, out.report.accuracy), with_grid(options.extrude), run, shown.above());
   for (auto& from : refined.parts) {
     PartResult part;
     part.feature = from.owner;
@@ -284,6 +288,9 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
   report::BlockReport& report = out.report;
   const Shown shown(block, crowns_over(block, options, run, tell, report, out.warnings));
   const auto& mesh = shown.whole();
+  report.accuracy = stage("accuracy", tell, report, [&] {
+    return accuracy::measure(shown.block().mesh, shown.mesh(), block.outline, options.accuracy);
+  });
   report::SegmentedBlock segmented =
       segment_block(shown.block(), shown.mesh(), options, run, tell, report, out.warnings);
 

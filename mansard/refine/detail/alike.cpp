@@ -356,9 +356,9 @@ class Alike {
         if (std::exchange(one.stale, false)) one.price = values.price(tie_of(one, values));
         least = std::min(least, one.price);
       }
-      if (!cheaper(least, options_.value_price)) return;
+      if (!cheaper(least, options_.value_price, options_.same_cost)) return;
       const auto best = std::ranges::find_if(
-          candidates, [&](const Candidate& one) { return one.open && one.price <= least + same_cost; });
+          candidates, [&](const Candidate& one) { return one.open && one.price <= least + options_.same_cost; });
       best->open = false;
       taken.push_back(*best);
       values.hold(tie_of(*best, values));

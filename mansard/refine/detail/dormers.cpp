@@ -77,7 +77,7 @@ struct Box {
 };
 
 /// m: the standard deviation of what a scan smooths, of which `melt` is the reach.
-auto blur_of(const Options& options) -> double { return options.samples.melt / std::numbers::sqrt2; }
+auto blur_of(const Options& options) -> double { return std::max(0.05, std::numbers::sqrt2 * options.samples.blur); }
 
 /// What a scan shows of a box above its slope, m: the box smoothed by a normal curve.
 class Shown {
@@ -146,7 +146,8 @@ auto error_of(const std::vector<Sample>& samples, const Slope& slope, const Box*
 }
 
 /// Walls and eaves moved until that no longer helps, by less and less.
-auto fitted_box(Box box, const std::vector<Sample>& samples, const Slope& slope, double blur, double reach) -> Box {
+auto fitted_box(Box box, const std::vector<Sample>& samples, const Slope& slope, double blur, double reach, double same)
+    -> Box {
   Box least = box, most = box;
   least.left -= reach, least.front -= reach, most.right += reach, most.eaves += reach;
   double error = error_of(samples, slope, &box, blur);
@@ -165,7 +166,7 @@ auto fitted_box(Box box, const std::vector<Sample>& samples, const Slope& slope,
           if (other.left < least.left || other.right > most.right || other.front < least.front) continue;
           if (other.eaves > most.eaves) continue;
           const double e = error_of(samples, slope, &other, blur);
-          if (e < error - same_cost) box = other, error = e, moved = true;
+          if (e < error - same) box = other, error = e, moved = true;
         }
       if (!moved) break;
     }
@@ -296,7 +297,7 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
     heights.push_back(site.measured.z[cell]);
   }
   if (start.width() > o.max_width || last - start.front > o.max_width) return std::nullopt;
-  const double reach = 2 * options.samples.melt;
+  const double reach = 2 * std::max(0.5, options.samples.melt);  // m: what the slope beside it is taken from
   std::vector<std::uint32_t> own(island);
   std::ranges::sort(own);
   std::vector<Sample> samples;
@@ -311,6 +312,7 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
     if (s.u > start.left - reach && s.u < start.right + reach && s.v > start.front - reach && s.v < last + reach)
       samples.push_back(s);
   }
+  constexpr double walls_move = 0.5;  // m: two samples
   const double all = error_of(samples, slope, nullptr, 0);
   if (all * site.cell_area < o.price) return std::nullopt;  // no box saves more than there is
   start.front -= site.measured.spacing;                     // a scan's front leans back
@@ -320,7 +322,7 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
   double blur = 0, least_rough = infinity;
   Box rough = start;
   for (const double may_be : {site.measured.spacing / 2, blur_of(options)}) {
-    const Box box = fitted_box(start, samples, slope, may_be, options.samples.melt);
+    const Box box = fitted_box(start, samples, slope, may_be, walls_move, options.same_cost);
     if (const double error = error_of(samples, slope, &box, may_be); error < least_rough)
       rough = box, blur = may_be, least_rough = error;
   }
@@ -331,7 +333,7 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
   const Shown shown(rough, slope, blur);
   std::vector<Sample> clean;
   for (const auto& s : samples)
-    if (std::abs(s.z - slope.at(s.v) - shown(s.u, s.v)) < options.samples.melt) clean.push_back(s);
+    if (std::abs(s.z - slope.at(s.v) - shown(s.u, s.v)) < walls_move) clean.push_back(s);
   constexpr double most_of_it = 0.75;
   if (static_cast<double>(clean.size()) >= most_of_it * static_cast<double>(samples.size())) samples = std::move(clean);
   const double before = error_of(samples, slope, nullptr, blur);
@@ -344,12 +346,12 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
     Box box = best ? *best : start;
     box.pitch = pitch;
     if (best) box.eaves -= pitch * box.width() / 4;
-    box = fitted_box(box, samples, slope, blur, options.samples.melt / 2);
+    box = fitted_box(box, samples, slope, blur, walls_move / 2, options.same_cost);
     const double error = error_of(samples, slope, &box, blur);
     if (error < o.gable_gain * least) best = box, least = error;
   }
   const double gain = (before - least) * site.cell_area, rise = best->eaves - slope.at(best->front);
-  const auto placed = where == Where::anywhere ? best : moved_onto(*best, slope, judged, site, options.samples.melt);
+  const auto placed = where == Where::anywhere ? best : moved_onto(*best, slope, judged, site, walls_move);
   if (best->width() < o.min_width || rise < o.min_rise || rise > o.max_rise || least > o.max_rest * before ||
       gain < o.price || !placed || placed->width() < o.min_width / 2 ||
       placed->eaves - slope.at(placed->front) < o.min_rise / 2)
@@ -391,7 +393,7 @@ auto dormers_on(const Judged& judged, const Site& site, const Options& options, 
         if (auto dormer = best_box(island, slope, judged, site, above, where, options))
           found.push_back(std::move(*dormer));
       }
-  rank(found, [](const Dormer& dormer) { return -dormer.gain; });
+  rank(found, [](const Dormer& dormer) { return -dormer.gain; }, options.same_cost);
   std::vector<Dormer> out;
   for (auto& dormer : found) {
     if (std::ranges::all_of(out, [&](const Dormer& other) { return apart(dormer, other, site.measured.spacing); }))

@@ -296,7 +296,7 @@ auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std
   const auto ends = ends_of(plan, sides, forms);
   propose([&](std::size_t p) { return !ends[p]; });
   propose([](std::size_t) { return true; });
-  rank(out, &Form::misfit);
+  rank(out, &Form::misfit, options.same_cost);
   return out;
 }
 

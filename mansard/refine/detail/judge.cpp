@@ -25,11 +25,13 @@ auto scratch() -> Scratch& {
 }
 
 /// The weighed losses of some cells of a row. No branches, and nothing overlaps: the compiler takes several at a time.
-void losses_of(std::size_t count, const std::array<const double*, 2 * blur_reach + 1>& sums, const double* unblurred,
-               const double* measured, const double* weights, double robust, double* __restrict out) {
+void losses_of(std::size_t count, const Kernel& kernel, const std::array<const double*, 2 * blur_reach + 1>& sums,
+               const double* unblurred, const double* measured, const double* weights, double robust,
+               double* __restrict out) {
   const auto [before_2, before, here, after, after_2] = sums;
   for (std::size_t i = 0; i < count; ++i) {
-    const double shown = unblurred[i] * (6 * here[i] + 4 * (before[i] + after[i]) + (before_2[i] + after_2[i]));
+    const double shown = unblurred[i] * (kernel.here * here[i] + kernel.beside * (before[i] + after[i]) +
+                                         kernel.beyond * (before_2[i] + after_2[i]));
     const double d = std::abs(shown - measured[i]), least = std::min(d, robust);
     out[i] = weights[i] * (least * (2 * d - least));  // loss(): d · (2 d − d) or robust · (2 d − robust)
   }
@@ -38,9 +40,8 @@ void losses_of(std::size_t count, const std::array<const double*, 2 * blur_reach
 }  // namespace
 
 auto Judge::misfit_of(const std::vector<double>& z, double cap, double most) const -> double {
-  // The heights as a scan would have them, whose corners are round: smoothed with a standard deviation of one cell, the
-  // 0.25 m by which photogrammetry melts a block. Else a slope would suit the scan of a step better than the step. A
-  // sample past the solid (its outline is rounded by some millimetres) falls to its base.
+  // The heights as the scan would have them, smoothed as it was measured to smooth. Else a slope would suit the scan of
+  // a step better than the step. A sample past the solid (its outline is rounded by some millimetres) falls to its base.
   const auto& grid = site_.measured;
   auto& [heights, sums, losses] = scratch();
   heights.assign(grid.columns + 2 * blur_reach, 0);
@@ -59,7 +60,7 @@ auto Judge::misfit_of(const std::vector<double>& z, double cap, double most) con
         const double height = from[column];
         to[column] = inside[column] > 0 && height == height ? std::min(height, cap) : 0.0;
       }
-      blur_rows(heights, newest);
+      blur_rows(site_.kernel, heights, newest);
     } else {
       std::ranges::fill(newest, 0.0);
     }
@@ -68,7 +69,7 @@ auto Judge::misfit_of(const std::vector<double>& z, double cap, double most) con
     const auto [first, last] = site_.extents[seen];
     std::array<const double*, 2 * blur_reach + 1> around{};  // those of row − 4, which is as good as row + 1, … row
     for (std::size_t k = 0; k < around.size(); ++k) around[k] = &sums[(row + 1 + k) % sums.size()][blur_reach + first];
-    losses_of(last - first, around, &site_.unblurred[start + first], &site_.heights[start + first],
+    losses_of(last - first, site_.kernel, around, &site_.unblurred[start + first], &site_.heights[start + first],
               &site_.weights[start + first], robust, losses.data());
     for (std::size_t i = 0; i < last - first; ++i) sum += losses[i];
     if (sum * site_.cell_area >= most) return sum * site_.cell_area;
@@ -90,7 +91,7 @@ auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
 }
 
 auto Judge::cheaper(const model::Plan& plan, double than) const -> std::optional<Judged> {
-  const double most = than - same_cost;
+  const double most = than - options_.same_cost;
   if (known_ && known_->costs_at_least(plan) >= most) return std::nullopt;
   auto judged = again(plan, most);
   if (!judged) {
@@ -98,7 +99,7 @@ auto Judge::cheaper(const model::Plan& plan, double than) const -> std::optional
     if (!sketch) return std::nullopt;
     judged = of(plan, std::move(*sketch), most);
   }
-  if (judged && detail::cheaper(judged->cost, than)) return judged;
+  if (judged && detail::cheaper(judged->cost, than, options_.same_cost)) return judged;
   if (known_) known_->add_too_dear(plan, most);
   return std::nullopt;
 }

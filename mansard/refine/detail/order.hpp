@@ -9,12 +9,9 @@
 
 namespace mansard::refine::detail {
 
-/// m²·m². Costs nearer to each other than this count as equal, and what was found first stays. A mesh moved by δ
-/// changes a cost by at most Σ 2·|d|·δ·area over its samples: 1e-4 for a micrometre, mean differences of 0.5 m and 100
-/// m². The bound has room for ten times that, and is a three-hundredth of a face's default price.
-constexpr double same_cost = 1e-3;
-
-[[nodiscard]] inline auto cheaper(double cost, double than) -> bool { return cost < than - same_cost; }
+/// `same`, m²·m²: Options::same_cost. Costs nearer to each other than this count as equal, and what was found first
+/// stays.
+[[nodiscard]] inline auto cheaper(double cost, double than, double same) -> bool { return cost < than - same; }
 
 /// m. Sides nearer to each other in length count as equally long: opposite sides of a rectangle are, up to rounding. A
 /// mesh moved by a micrometre moves a side's ends by as little; the bound has room for a hundred times that.
@@ -29,7 +26,7 @@ constexpr double same_distance = 1e-5;
 
 /// Sorts by value, ascending; of values that follow each other within `same`, what came first stays first.
 template <class T, class Value>
-void rank(std::vector<T>& items, Value value, double same = same_cost) {
+void rank(std::vector<T>& items, Value value, double same) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < items.size(); ++i) order.emplace_back(std::invoke(value, items[i]), i);
   std::ranges::sort(order);

@@ -226,11 +226,11 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
     for (auto& one : judged)
       if (one) starts.push_back(std::move(*one));
   }
-  rank(starts, &Judged::cost);
+  rank(starts, &Judged::cost, judge.options().same_cost);
   if (starts.size() > followed) starts.erase(starts.begin() + static_cast<std::ptrdiff_t>(followed), starts.end());
   base::parallel_for(starts.size(), [&](std::size_t i) { starts[i] = settle(std::move(starts[i]), judge); });
   for (auto& judged : starts)
-    if (cheaper(judged.cost, best.cost)) best = std::move(judged);
+    if (cheaper(judged.cost, best.cost, judge.options().same_cost)) best = std::move(judged);
   if (search == Search::quick || best.cost > options.hopeless * worth) return best;
   for (std::int64_t round = 0; round < options.rounds; ++round) {
     const double cost = best.cost;

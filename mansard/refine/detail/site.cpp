@@ -75,17 +75,17 @@ void each_near(Point2 a, Point2 b, double within, const Heights& grid, See see) 
   }
 }
 
-auto unblurred_of(const Polygon& polygon, const Heights& grid) -> std::vector<double> {
+auto unblurred_of(const Polygon& polygon, const Heights& grid, const Kernel& kernel) -> std::vector<double> {
   const std::size_t stride = grid.columns + 2 * blur_reach;
   std::vector<double> inside(stride * (grid.rows + 2 * blur_reach), 0), sums(inside.size(), 0);
   const auto padded = [&](std::size_t column, std::size_t row) {
     return (row + blur_reach) * stride + column + blur_reach;
   };
   each_inside(polygon, grid, [&](std::size_t column, std::size_t row) { inside[padded(column, row)] = 1; });
-  blur_rows(inside, sums);
+  blur_rows(kernel, inside, sums);
   std::vector<double> out(grid.z.size(), 0);
   each_inside(polygon, grid, [&](std::size_t column, std::size_t row) {
-    out[row * grid.columns + column] = 1 / blurred(sums, padded(column, row), stride);
+    out[row * grid.columns + column] = 1 / blurred(kernel, sums, padded(column, row), stride);
   });
   return out;
 }
@@ -125,7 +125,8 @@ void finish(Site& site, const Options& options) {
       last = column + 1;
     }
   std::ranges::sort(site.sorted);
-  site.unblurred = unblurred_of(site.polygon, grid);
+  site.kernel = Kernel::of(options.samples.blur / grid.spacing);
+  site.unblurred = unblurred_of(site.polygon, grid, site.kernel);
 }
 
 /// m: coarser over very large parts.
@@ -136,7 +137,7 @@ auto spacing_over(const Polygon& polygon, const Options& options) -> double {
 
 /// Before anything is sampled.
 auto unseen_over(const Polygon& polygon, double base, double spacing) -> Site {
-  return {polygon, base, grid_over(polygon, spacing), {}, {}, {}, {}, 0, {}, {}, {}, {}};
+  return {polygon, base, grid_over(polygon, spacing), {}, {}, {}, {}, 0, {}, {}, {}, {}, {}, {}};
 }
 
 /// The cells of one grid by those of another of the same spacing.

@@ -7,6 +7,7 @@
 
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/rays/rays.hpp"
+#include "mansard/refine/detail/blur.hpp"
 #include "mansard/refine/detail/heights.hpp"
 #include "mansard/refine/refine.hpp"
 
@@ -21,6 +22,7 @@ struct Site {
   std::vector<geometry::Point2> centres;  ///< per entry of `cells`
   std::vector<double> sorted;             ///< the heights
   double cell_area = 0;                   ///< m²
+  Kernel kernel;                          ///< by which the scan smooths, on this grid
   /// Per cell of the grid: 0 outside the polygon, else the factor that makes a sum of `blurred` a mean of what is
   /// inside.
   std::vector<double> unblurred;

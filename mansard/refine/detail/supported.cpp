@@ -105,11 +105,11 @@ auto supported(Judged judged, const Judge& judge) -> Judged {
       const Plan moved = refitted(*next, judge.site(), judge.options());
       if (auto better = moved == next->plan ? std::nullopt : judge.cheaper(moved, std::min(next->cost, judged.cost)))
         each[i] = std::move(*better);
-      else if (cheaper(next->cost, judged.cost)) each[i] = std::move(*next);
+      else if (cheaper(next->cost, judged.cost, judge.options().same_cost)) each[i] = std::move(*next);
     });
     std::optional<Judged> best;
     for (auto& next : each)
-      if (next && cheaper(next->cost, best ? best->cost : judged.cost)) best = std::move(*next);
+      if (next && cheaper(next->cost, best ? best->cost : judged.cost, judge.options().same_cost)) best = std::move(*next);
     if (!best) break;
     judged = std::move(*best);
   }

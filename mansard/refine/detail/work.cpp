@@ -132,7 +132,7 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
     for (const auto& one : pieces) cost += one.roof.cost;
   });
   std::erase_if(trials, [](const Trial& trial) { return trial.pieces.empty(); });
-  rank(trials, &Trial::cost);
+  rank(trials, &Trial::cost, options_.same_cost);
   const auto needles = [this](const std::vector<Piece>& pieces) {
     return std::ranges::any_of(pieces,
                                [this](const Piece& one) { return is_needle(one.site, one.roof, mesh_, options_); });
@@ -152,7 +152,7 @@ auto Work::into_wings(const Piece& piece, double least_gain) const -> std::vecto
     const double about = misfit_about(piece, wing.middle, wing.length);
     if (about >= least_gain) wings.push_back({std::move(wing.polygon), about, 0, "a wing", true});
   }
-  rank(wings, [](const Proposal& wing) { return -wing.gain; });
+  rank(wings, [](const Proposal& wing) { return -wing.gain; }, options_.same_cost);
   const auto most = static_cast<std::size_t>(options_.wings.max_cuts);
   if (wings.size() > most) wings.resize(most);
   return cheapest(piece, wings, piece.roof.cost);
@@ -189,7 +189,7 @@ auto Work::as_one(const Piece& a, const Piece& b, const Union& both) const -> st
   if (both.roof.cost >= options_.joins.quick_excess * worth) return std::nullopt;
   auto made = roofed(std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, Search::thorough,
                      std::numeric_limits<double>::infinity(), both.known);
-  if (!made || !cheaper(made->roof.cost, worth)) return std::nullopt;
+  if (!made || !cheaper(made->roof.cost, worth, options_.same_cost)) return std::nullopt;
   made->changes.insert(made->changes.begin(), "parts of " + square_metres(a) + " and " + square_metres(b) +
                                                   " joined under one roof, at a cost of " +
                                                   base::to_text(made->roof.cost, 1) + " instead of " +
@@ -256,7 +256,7 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
     if (!made) return {};
     left -= made->roof.cost + (out.empty() ? 0 : options_.part_price);
     fewest -= cost_of_faces(polygon) + (out.empty() ? 0 : options_.part_price);
-    if (left - fewest <= same_cost) return {};
+    if (left - fewest <= options_.same_cost) return {};
     out.push_back(std::move(*made));
   }
   return out;
@@ -276,7 +276,7 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
   const auto consider = [&](base::Result<Judged> roof, const Site& without) {
     if (!roof) return;
     const auto [dormers, cost] = dormers_of(*roof, all);
-    if (dormers.empty() || (best && !cheaper(cost, best->cost)) || !is_sound(raised(roof->plan))) return;
+    if (dormers.empty() || (best && !cheaper(cost, best->cost, options_.same_cost)) || !is_sound(raised(roof->plan))) return;
     better = better || !best || cost < best->cost - options_.dormers.price;
     best = Found{std::move(*roof), without, cost};
   };
@@ -302,12 +302,12 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
         try_beside_dormers_of(*plain, false);
     try_beside_dormers_of(roof, false);
   }
-  if (!best || !cheaper(best->cost, most)) return std::nullopt;
+  if (!best || !cheaper(best->cost, most, options_.same_cost)) return std::nullopt;
   auto sharp = sharpened(best->roof, Judge(best->without, options_, raising_, run_));
   if (sharp.plan != best->roof.plan)
     if (const auto [dormers, cost] = dormers_of(sharp, all); !dormers.empty() &&
                                                              cost <= best->cost + options_.face_price &&
-                                                             cheaper(cost, most) && is_sound(raised(sharp.plan)))
+                                                             cheaper(cost, most, options_.same_cost) && is_sound(raised(sharp.plan)))
       best->roof = std::move(sharp);
   Piece out = piece;
   out.roof = std::move(best->roof);
@@ -327,7 +327,7 @@ auto Work::dormers_of(const Judged& roof, const Site& all) const -> std::pair<st
     auto with = z;
     paint(dormer, all.measured, with);
     const double then = judge.misfit_of(with);
-    if (!cheaper(then, misfit)) continue;
+    if (!cheaper(then, misfit, options_.same_cost)) continue;
     z = std::move(with);
     misfit = then;
     out.push_back(std::move(dormer));

@@ -1,0 +1,48 @@
+// Measures how accurate a scan is: its noise and how far that is correlated, its spacing, how much it rounds edges, how
+// much it shows of walls, and where the footprints are beside them.
+// References: docs/accuracy.md has the derivations; P. Welch, The use of fast Fourier transform for the estimation of
+// power spectra (1967) for equivalent degrees of freedom; E. Wilson, M. Hilferty, The distribution of chi-square (1931).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mansard/base/options.hpp"
+#include "mansard/base/run.hpp"
+#include "mansard/geometry/mesh.hpp"
+#include "mansard/geometry/polygon.hpp"
+#include "mansard/model/accuracy.hpp"
+#include "mansard/rays/rays.hpp"
+
+namespace mansard::accuracy {
+
+/// Each replaces what is measured.
+struct Options {
+  std::optional<double> noise;            ///< m
+  std::optional<double> correlated_area;  ///< m²
+  std::optional<double> spacing;          ///< m
+  std::optional<double> blur;             ///< m
+  std::optional<double> walls;            ///< share
+  std::optional<double> offset_x, offset_y, offset_spread;  ///< m
+};
+[[nodiscard]] auto option_list(Options& options) -> base::OptionList;
+
+/// The accuracy of a scan over some footprints. `scene` is of the same mesh, maybe without the crowns of trees.
+/// Guarantees: 1 a function of the mesh and the outline alone, whatever the order of triangles, the thread count and
+/// the (whole-metre) frame · 2 a mesh of planes has no noise and no blur · 3 planted noise, correlated area, spacing,
+/// blur and offset are measured within 20 % (docs/accuracy.md has the table).
+/// Cost: O(vertices + outline's length); places and transects are at most some hundreds.
+[[nodiscard]] auto measure(const geometry::Mesh& mesh, const rays::Scene& scene,
+                           std::span<const geometry::Polygon> outline, const Options& options = {})
+    -> model::Accuracy;
+
+/// Noise, correlated area and spacing of points of single surfaces, seen from above: laser points of roofs. `places`:
+/// indices of the points around which they are measured.
+[[nodiscard]] auto noise_of(std::span<const geometry::Point3> points, std::span<const std::uint32_t> places)
+    -> model::Accuracy;
+
+/// Of several scans, or blocks of one, what they are together: by what each was measured from.
+[[nodiscard]] auto combined(std::span<const model::Accuracy> all) -> model::Accuracy;
+
+}  // namespace mansard::accuracy

@@ -1,0 +1,213 @@
+#include "mansard/accuracy/detail/noise.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "mansard/base/run.hpp"
+#include "mansard/base/statistics.hpp"
+#include "mansard/geometry/fit.hpp"
+
+namespace mansard::accuracy::detail {
+namespace {
+
+using geometry::Point2;
+using geometry::Point3;
+
+constexpr double cell = 1;            // m
+constexpr double largest_radius = 4;  // m; on larger discs there are no roofs
+constexpr double growth = 1.5;        // from radius to radius
+constexpr std::size_t full = 12;      // samples of a disc: three make the plane, nine are left to measure by
+constexpr double used = 240;          // samples of a disc; more do not change its mean square by 5 %
+constexpr std::size_t least_discs = 12;
+constexpr double least_share = 0.15;  // of the places
+constexpr double off_centre = 0.25;   // of the radius: the disc is cut off by an edge
+
+/// Discs over ridges, steps and clutter have more than noise; those below the quantile have noise alone where at least
+/// a fifth of all is even. Where three quarters are, it is the quantile of `even_quantile` of those.
+constexpr double quantile = 0.1, even_quantile = 0.13;
+
+constexpr double pi = std::numbers::pi;
+
+/// By quadrature over the disc: the trace of the covariance of noise exp(−d² / 2 ℓ²) without its projection on 1, x and
+/// y, and (Σ λ)² / Σ λ² of its eigenvalues (docs/accuracy.md).
+constexpr std::array<double, 11> radii{0.25, 0.35, 0.5, 0.7, 1, 1.4, 2, 2.8, 4, 5.6, 8};
+constexpr std::array<double, 11> left{0.0005, 0.0017, 0.0067, 0.0226, 0.0728, 0.1826,
+                                      0.3733, 0.5730, 0.7445, 0.8526, 0.9213};
+constexpr std::array<double, 11> freedom{3.1, 3.1, 3.2, 3.5, 4.0, 5.0, 7.1, 10.9, 19.2, 35.1, 68.7};
+
+auto between(const std::array<double, 11>& values, double at) -> double {
+  const auto next = static_cast<std::size_t>(std::ranges::upper_bound(radii, at) - radii.begin());
+  const double t = std::log(at / radii[next - 1]) / std::log(radii[next] / radii[next - 1]);
+  return values[next - 1] * std::pow(values[next] / values[next - 1], t);
+}
+
+/// The quantile of χ² over its degrees of freedom (Wilson and Hilferty 1931).
+auto chi_square_share(double degrees) -> double {
+  constexpr double z = -1.1264;  // of the normal distribution at `even_quantile`
+  const double s = 2 / (9 * degrees), root = 1 - s + z * std::sqrt(s);
+  return std::max(1e-3, root * root * root);
+}
+
+}  // namespace
+
+auto left_by_plane(double t) -> double {
+  if (t >= radii.back()) return 1 - (1 - left.back()) * radii.back() * radii.back() / (t * t);  // 1 − 3 A / π r²
+  if (t < radii.front()) return left.front() * std::pow(t / radii.front(), 4);                  // what bends
+  return between(left, t);
+}
+
+auto degrees_of_freedom(double t) -> double {
+  if (t >= radii.back()) return freedom.back() * t * t / (radii.back() * radii.back());
+  return t < radii.front() ? freedom.front() : between(freedom, t);
+}
+
+Cells::Cells(std::vector<Point3> points) : points_(std::move(points)) {
+  std::ranges::sort(points_);
+  points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
+  const auto box = geometry::Box2::of(points_);
+  if (box.empty()) return;
+  origin_ = {std::floor(box.least.x), std::floor(box.least.y)};
+  columns_ = static_cast<std::size_t>((box.most.x - origin_.x) / cell) + 1;
+  rows_ = static_cast<std::size_t>((box.most.y - origin_.y) / cell) + 1;
+  const auto cell_of = [&](Point3 p) {
+    return static_cast<std::size_t>((p.y - origin_.y) / cell) * columns_ +
+           static_cast<std::size_t>((p.x - origin_.x) / cell);
+  };
+  first_.assign(columns_ * rows_ + 1, 0);
+  for (const Point3 p : points_) ++first_[cell_of(p) + 1];
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  auto next = first_;
+  std::vector<Point3> sorted(points_.size());
+  for (const Point3 p : points_) sorted[next[cell_of(p)]++] = p;
+  points_ = std::move(sorted);
+}
+
+template <class See>
+void Cells::each_near(Point2 at, double radius, See see) const {
+  const auto index = [](double v, std::size_t count) {
+    return static_cast<std::size_t>(std::clamp(std::floor(v / cell), 0.0, static_cast<double>(count)));
+  };
+  const Point2 low = at - Point2{radius, radius} - origin_, high = at + Point2{radius, radius} - origin_;
+  if (columns_ == 0 || high.x < 0 || high.y < 0) return;
+  const std::size_t first = index(low.x, columns_), last = std::min(columns_, index(high.x, columns_) + 1);
+  for (std::size_t row = index(low.y, rows_); row < std::min(rows_, index(high.y, rows_) + 1); ++row) {
+    if (first >= last) return;
+    for (std::size_t i = first_[row * columns_ + first]; i < first_[row * columns_ + last]; ++i) {
+      const Point2 off = xy(points_[i]) - at;
+      if (dot(off, off) <= radius * radius) see(i, points_[i]);
+    }
+  }
+}
+
+auto Cells::ground_of_one(std::span<const Point2> places) const -> double {
+  // The smallest disc of which half of the places have a dozen.
+  for (double radius = 0.25; radius < largest_radius; radius *= growth) {
+    std::vector<double> counts;
+    for (const Point2 at : places) {
+      double count = 0;
+      each_near(at, radius, [&](std::size_t, Point3) { count += 1; });
+      counts.push_back(count);
+    }
+    if (const double middle = counts.empty() ? 0 : base::median(std::move(counts)); middle >= full)
+      return pi * radius * radius / middle;
+  }
+  double all = 0;
+  for (const Point2 at : places) each_near(at, largest_radius, [&](std::size_t, Point3) { all += 1; });
+  return pi * largest_radius * largest_radius * static_cast<double>(places.size()) / std::max(1.0, all);
+}
+
+auto Cells::residuals(std::span<const Point2> places, double ground) const -> std::vector<Residual> {
+  std::vector<double> all;
+  for (double radius = std::sqrt(full * ground / pi) * 1.05; radius < largest_radius; radius *= growth)
+    all.push_back(radius);
+  if (!all.empty() && all.back() < largest_radius / 1.15) all.push_back(largest_radius);
+  std::vector<std::optional<Residual>> found(all.size());
+  base::parallel_for(all.size(), [&](std::size_t k) {
+    const double radius = all[k];
+    const auto every = static_cast<std::size_t>(std::max(1.0, pi * radius * radius / ground / used));
+    std::vector<double> squares, counts;
+    for (const Point2 at : places) {
+      geometry::PlaneSums sums;
+      double zz = 0;
+      std::optional<double> level;
+      each_near(at, radius, [&](std::size_t i, Point3 p) {
+        if (i % every != 0) return;
+        if (!level) level = p.z;
+        const double z = p.z - *level;
+        sums.add(p.x - at.x, p.y - at.y, z);
+        zz += z * z;
+      });
+      if (sums.count < static_cast<double>(full)) continue;
+      const Point2 centre{sums.x / sums.count, sums.y / sums.count};
+      const auto equations = sums.centred();
+      const bool even = length(centre) <= off_centre * radius &&
+                        equations.determinant() > 0.05 * equations.xx * equations.yy;
+      if (!even) continue;
+      const Point2 slope = equations.slopes();
+      const double rest = zz - sums.z * sums.z / sums.count - slope.x * equations.xz - slope.y * equations.yz;
+      squares.push_back(std::max(0.0, rest / sums.count) / (1 + dot(slope, slope)));
+      counts.push_back(sums.count);
+    }
+    if (squares.size() < least_discs ||
+        static_cast<double>(squares.size()) < least_share * static_cast<double>(places.size()))
+      return;
+    const std::size_t discs = squares.size();
+    found[k] = Residual{radius, base::percentile(std::move(squares), quantile), base::median(std::move(counts)), discs};
+  });
+  std::vector<Residual> out;
+  for (const auto& one : found)
+    if (one) out.push_back(*one);
+  return out;
+}
+
+auto noise_from(std::span<const Residual> residuals, double ground) -> std::optional<Noise> {
+  if (residuals.empty()) return std::nullopt;
+  constexpr double nothing = 1e-10;  // m²: 10 µm, what coordinates are rounded to
+  if (residuals.front().squared <= nothing) return Noise{0, ground, residuals.front().discs};
+  // Noise grows ever less from disc to disc, whatever its correlation; where residuals begin to grow faster, discs have
+  // begun to hold more than one roof.
+  constexpr double steepest = 4.3, bends = 0.15;  // of logarithms; a bent surface grows with the fourth power
+  std::size_t count = 1;
+  for (double last = steepest; count < residuals.size(); ++count) {
+    const auto &a = residuals[count - 1], &b = residuals[count];
+    const double slope = std::log(b.squared / a.squared) / std::log(b.radius / a.radius);
+    if (slope > std::min(steepest, last + bends)) break;
+    last = std::max(0.0, slope);
+  }
+  const auto kept = residuals.first(count);
+  // ln V − ln model by correlation length; what is above the model may be structure, and counts less.
+  constexpr double above = 0.6, shortest = 0.01;  // the last: a length says nothing that is longer without need
+  const double white = std::sqrt(ground / (2 * pi));
+  Noise best;
+  double least = std::numeric_limits<double>::infinity();
+  for (double length = white; length < std::max(largest_radius, 1.5 * white); length *= 1.05) {
+    std::vector<double> off;
+    for (const auto& one : kept) {
+      const double t = one.radius / length;
+      off.push_back(std::log(one.squared / (left_by_plane(t) * chi_square_share(degrees_of_freedom(t)))));
+    }
+    for (double level : off) {
+      const auto weight_of = [&](std::size_t k) {
+        const double share = kept[k].radius / kept.back().radius;  // what counts is what is wrong over whole roofs
+        return share * (off[k] > level ? above : 1);
+      };
+      for (int round = 0; round < 4; ++round) {
+        double sum = 0, weight = 0;
+        for (std::size_t k = 0; k < off.size(); ++k) sum += weight_of(k) * off[k], weight += weight_of(k);
+        level = sum / weight;
+      }
+      const double longer = std::log(length / white);
+      double error = shortest * longer * longer;
+      for (std::size_t k = 0; k < off.size(); ++k) error += weight_of(k) * (off[k] - level) * (off[k] - level);
+      if (error >= least) continue;
+      least = error;
+      best = {std::exp(level / 2), std::max(ground, 2 * pi * length * length), kept.front().discs};
+    }
+  }
+  return best;
+}
+
+}  // namespace mansard::accuracy::detail

@@ -1,0 +1,57 @@
+// Noise and its correlated area, from how far samples are from planes through discs of several radii.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mansard/geometry/points.hpp"
+
+namespace mansard::accuracy::detail {
+
+/// A low quantile of the mean squared distance from the plane through a disc, over many discs.
+struct Residual {
+  double radius = 0;   ///< m
+  double squared = 0;  ///< m²
+  double samples = 0;  ///< in the median disc
+  std::size_t discs = 0;
+};
+
+struct Noise {
+  double noise = 0;            ///< m
+  double correlated_area = 0;  ///< m²
+  std::size_t discs = 0;
+};
+
+/// Points in cells, for those near a place.
+class Cells {
+ public:
+  explicit Cells(std::vector<geometry::Point3> points);
+  /// Sorted by place; equal ones once.
+  [[nodiscard]] auto points() const -> const std::vector<geometry::Point3>& { return points_; }
+  /// m²: the ground of one point, in the median over the places.
+  [[nodiscard]] auto ground_of_one(std::span<const geometry::Point2> places) const -> double;
+  /// One for every radius from that which has a dozen points to 4 m at which enough discs are full.
+  [[nodiscard]] auto residuals(std::span<const geometry::Point2> places, double ground_of_one) const
+      -> std::vector<Residual>;
+
+ private:
+  template <class See>
+  void each_near(geometry::Point2 at, double radius, See see) const;
+
+  std::vector<geometry::Point3> points_;
+  std::vector<std::size_t> first_;  // per cell, row by row, and the end
+  geometry::Point2 origin_;
+  std::size_t columns_ = 0, rows_ = 0;
+};
+
+/// Share of the variance of noise with a Gaussian autocorrelation that a plane through a disc leaves, by the disc's
+/// radius over the correlation length; and the equivalent degrees of freedom of what is left.
+[[nodiscard]] auto left_by_plane(double radius_over_length) -> double;
+[[nodiscard]] auto degrees_of_freedom(double radius_over_length) -> double;
+
+/// The noise that has these residuals. None without any.
+[[nodiscard]] auto noise_from(std::span<const Residual> residuals, double ground_of_one) -> std::optional<Noise>;
+
+}  // namespace mansard::accuracy::detail

@@ -1,0 +1,60 @@
+#include "mansard/refine/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mansard::refine {
+namespace {
+
+/// What is said of a roof, in numbers. A face is a plane: the two numbers of its profile, and where it begins. A part
+/// is an outline of its own: a position and a direction of four sides, where both ends of each begin, and which of its
+/// sides carry roof.
+constexpr double numbers_of_face = 3, numbers_of_part = 20;
+
+/// m²: the ground that one number is fitted to, for n = F / A in ½ ln n: a roof of a house. It counts by its logarithm.
+constexpr double roof = 100;
+
+/// The share of the smallest detail that one number of it pays: a part on it is nine or ten faces and an outline, fifty
+/// numbers; so much is left where the detail is half explained by the roof around it.
+constexpr double number_of_detail = 1.0 / 20;
+
+/// Beyond 0.4 m from an outline and 0.5 m from a crease too little is left of narrow roofs, however much a scan rounds.
+constexpr double most_margin = 0.4, most_melt = 0.5;
+/// Standard deviations: 99 % of what is smoothed is nearer to its edge.
+constexpr double reach = 2.5;
+/// m: kernels of five cells of 0.25 m and of solids that were smoothed by more, whose tall steps are no wider.
+constexpr double most_blur = 0.25;
+
+/// Weights of a sample within the margin of an outline. What is rounded is explained in part, by the same smoothing of
+/// the roof; where an edge was sampled beside its place, the difference is the height of the wall and says nothing.
+constexpr double weight_of_rounded = 0.2, weight_of_rough = 0.05;
+
+/// m: what is left between lines and samples without noise: coordinates have single precision in many files.
+constexpr double least_robust = 0.02;
+
+}  // namespace
+
+auto decided_by(Options o, const model::Accuracy& scan) -> Options {
+  const double independent = std::max(2.0, roof / scan.correlated_area);
+  const double by_noise = o.significance * scan.chance() * std::log(independent);
+  const double by_detail = number_of_detail * o.detail * o.detail * o.least_area;
+  const double number = std::max(by_noise, by_detail);
+  o.value_price = number;
+  o.face_price = numbers_of_face * number;
+  o.part_price = numbers_of_part * number;
+  o.dormers.price = o.dormers.wanted ? o.face_price / 2 : 0;  // a box of a given form: its walls are no new planes
+  // A three-hundredth of a face. A mesh moved by δ changes a cost by at most Σ 2·|d|·δ·area over its samples: 1e-4 for
+  // a micrometre, mean differences of 0.5 m and 100 m², and less where a scan is so accurate that a face costs less.
+  o.same_cost = std::min(1e-3, o.face_price / 300);
+
+  const double blur = scan.blur * scan.blur, rough = scan.edge_noise * scan.edge_noise, edge = std::sqrt(blur + rough);
+  o.margin = std::min(most_margin, reach * edge);
+  o.samples.margin_weight =
+      blur + rough > 0 ? (weight_of_rounded * blur + weight_of_rough * rough) / (blur + rough) : weight_of_rough;
+  o.samples.melt = std::clamp(reach * edge, o.grid / 2, most_melt);  // a sample is of all of its cell
+  o.samples.blur = std::min(most_blur, edge);
+  o.lines.robust = std::max(least_robust, reach * scan.noise);
+  return o;
+}
+
+}  // namespace mansard::refine
