@@ -1,0 +1,91 @@
+#include "mansard/picture/plans.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+namespace {
+
+using namespace mansard::picture;
+using mansard::geometry::Polygon;
+
+constexpr Colour red{200, 30, 30}, blue{30, 30, 200};
+
+auto rectangle(double x0, double y0, double x1, double y1) -> Polygon {
+  return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
+}
+
+auto pixels_of(const Image& image, Colour colour) -> std::size_t {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < image.width * image.height; ++i)
+    n += std::equal(colour.begin(), colour.end(), image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * i)) ? 1 : 0;
+  return n;
+}
+
+auto sheet_of(std::vector<PlanArea> left, std::vector<PlanArea> right = {}) -> PlanSheet {
+  PlanSheet sheet;
+  sheet.groups = {
+      {"a building", "what is known of it", {{"left", std::move(left), ""}, {"right", std::move(right), ""}}}};
+  return sheet;
+}
+
+TEST(PlanSheet, draws_areas_of_one_group_at_one_scale) {
+  // The larger area has 284 pixels for its 20 m, so the smaller one has a quarter of its pixels.
+  const Image image =
+      plan_sheet(sheet_of({{{rectangle(0, 0, 20, 10)}, red, {}}}, {{{rectangle(0, 0, 10, 5)}, blue, {}}}));
+  const auto large = static_cast<double>(pixels_of(image, red)), small = static_cast<double>(pixels_of(image, blue));
+  EXPECT_NEAR(large, 284 * 142, 1500);
+  EXPECT_NEAR(small / large, 0.25, 0.02);
+}
+
+TEST(PlanSheet, leaves_holes_empty_and_shows_what_is_on_top) {
+  Polygon ring = rectangle(0, 0, 10, 10);
+  ring.holes.push_back({{2, 2}, {2, 8}, {8, 8}, {8, 2}});
+  const auto with_hole = pixels_of(plan_sheet(sheet_of({{{ring}, red, {}}})), red);
+  const auto covered =
+      pixels_of(plan_sheet(sheet_of({{{rectangle(0, 0, 10, 10)}, red, {}}, {{rectangle(2, 2, 8, 8)}, blue, {}}})), red);
+  EXPECT_NEAR(static_cast<double>(with_hole), 0.64 * 244 * 244, 2500);
+  EXPECT_EQ(covered, with_hole);
+}
+
+TEST(PlanSheet, writes_the_first_label_that_fits_and_none_where_none_does) {
+  const std::vector<std::vector<std::string>> labels{
+      {"a label that is too long for any panel of a sheet"}, {"38°", "7.2 m"}, {"38°"}};
+  const auto red_of = [&](double width, const std::vector<std::vector<std::string>>& texts) {
+    // A field of 20 m keeps the scale: about 14 pixels per metre.
+    return pixels_of(plan_sheet(sheet_of({{{rectangle(0, 0, 20, 10)}, blue, {}},
+                                          {{rectangle(8, 2, 8 + width, 2 + width)}, red, texts}})),
+                     red);
+  };
+  const auto written = [&](double width) { return red_of(width, {}) - red_of(width, labels); };
+  EXPECT_GT(written(6), written(1.9));
+  EXPECT_GT(written(1.9), 0U);
+  EXPECT_EQ(written(0.8), 0U);
+  EXPECT_EQ(red_of(6, labels), red_of(6, {labels[1]}));
+  EXPECT_EQ(red_of(1.9, labels), red_of(1.9, {labels[2]}));
+}
+
+TEST(PlanSheet, has_as_many_columns_as_asked_for_and_one_width) {
+  PlanSheet sheet = sheet_of({{{rectangle(0, 0, 20, 10)}, red, {}}});
+  const Image one = plan_sheet(sheet);
+  sheet.groups.resize(7, sheet.groups.front());
+  const Image seven = plan_sheet(sheet);
+  EXPECT_GT(seven.width, 2 * one.width);
+  EXPECT_GT(seven.height, 2 * one.height);
+  sheet.groups[0].title = std::string(1000, 'x') + "é";
+  const Image named = plan_sheet(sheet);
+  EXPECT_EQ(named.width, seven.width);
+  EXPECT_EQ(named.height, seven.height);
+  EXPECT_EQ(plan_sheet(sheet).pixels, named.pixels);
+}
+
+TEST(PlanSheet, takes_groups_without_areas_areas_without_extent_and_no_groups) {
+  EXPECT_GT(plan_sheet({}).pixels.size(), 0U);
+  EXPECT_GT(plan_sheet(sheet_of({})).pixels.size(), 0U);
+  const Polygon point{{{5, 5}, {5, 5}, {5, 5}}, {}};
+  EXPECT_GT(plan_sheet(sheet_of({{{point}, red, {{"x"}}}, {{}, red, {{"x"}}}})).pixels.size(), 0U);
+  EXPECT_GT(plan_sheet(sheet_of({{{rectangle(0, 0, 1e7, 1e7)}, red, {}}})).pixels.size(), 0U);
+}
+
+}  // namespace
