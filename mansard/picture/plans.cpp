@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mansard/base/text.hpp"
 #include "mansard/picture/detail/lettering.hpp"
@@ -105,6 +106,12 @@ auto plan_sheet(const PlanSheet& sheet) -> Image {
     for (std::size_t y = 0; y < key_size; ++y)
       for (std::size_t x = 0; x < key_size; ++x)
         detail::set_colour(image, (at.y + y) * image.width + at.x + x, key.colour);
+    const Spot first = spot(at, 0, 0), last = spot(at, key_size, key_size);
+    for (const auto& [a, b] : {std::pair{first, Spot{last.x, first.y}},
+                               {Spot{last.x, first.y}, last},
+                               {last, Spot{first.x, last.y}},
+                               {Spot{first.x, last.y}, first}})
+      ink.stroke(a, b, 1);
     detail::write_text(ink, key.meaning, spot(at, line, 12), middle);
     at.y += line;
   }

@@ -13,7 +13,8 @@ namespace mansard::picture {
 struct PlanArea {
   std::vector<geometry::Polygon> polygons;  ///< m
   Colour colour = ground_grey;
-  /// Lines of text to write on it: the first of these that fits into what is visible of the area, otherwise none.
+  /// Lines of text to write on it: the first of these that fits into what is visible of the area. Where none does, the
+  /// first that fits beside all areas not far away, with a line to this one; otherwise nothing is written.
   std::vector<std::vector<std::string>> labels;
 };
 
@@ -38,10 +39,10 @@ struct PlanSheet {
   std::string title, subtitle;
   std::vector<PlanKey> keys;
   std::vector<PlanGroup> groups;  ///< by row
-  std::size_t columns = 3;        ///< groups in a row, at most
+  std::size_t columns = 2;        ///< groups in a row, at most
 };
 
-/// Panels of 300 × 260 pixels on white. Text that is wider than its place is cut and ends in "...". Same input, same
+/// Panels of 440 × 360 pixels on white. Text that is wider than its place is cut and ends in "...". Same input, same
 /// bytes. Cost: grows with the pixels, and per panel with its areas.
 [[nodiscard]] auto plan_sheet(const PlanSheet& sheet) -> Image;
 

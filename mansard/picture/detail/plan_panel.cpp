@@ -11,9 +11,8 @@ namespace {
 
 constexpr Colour panel_paper{249, 249, 250}, outline_colour{60, 62, 68}, text_colour{20, 20, 24};
 constexpr double line_width = 1.3, letters = 9, line_height = 14;  // px
-constexpr double border = 8;                                       // px around the areas
+constexpr double border = 14;                                      // px around the areas
 constexpr std::size_t pixels = panel_width * panel_height;
-constexpr std::uint32_t nothing = ~0U;
 
 using Rings = std::vector<std::vector<Spot>>;
 
@@ -70,43 +69,73 @@ void paint(Image& image, const std::vector<float>& cover, Colour colour) {
   }
 }
 
-/// Where text may be: per pixel the area that is visible there, nothing on outlines.
+constexpr std::uint32_t ground = ~0U, taken = ground - 1;  ///< in place of an area
+
+auto squared_distance(Spot a, Spot b) -> double { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y); }
+
+/// Where text may be: per pixel the area that is visible there, or the ground around them.
 class Visible {
  public:
-  Visible() : area_(pixels, nothing) {}
+  Visible() : area_(pixels, ground) {}
   void add(std::uint32_t area, const std::vector<float>& cover) {
     for (std::size_t i = 0; i < pixels; ++i)
-      if (cover[i] > 0) area_[i] = cover[i] > 0.99F ? area : nothing;
+      if (cover[i] > 0) area_[i] = cover[i] > 0.99F ? area : taken;
   }
-  /// The middle of a place of this size on the area: the one that is nearest to the middle of what is visible of it.
-  [[nodiscard]] auto room_for(std::uint32_t area, double width, double height) const -> std::optional<Spot> {
+  /// The pixel of an area that is nearest to the middle of what is visible of it.
+  [[nodiscard]] auto middle_of(std::uint32_t area) const -> std::optional<Spot> {
+    Spot sum;
+    double count = 0;
+    const auto each = [&](const auto& visit) {
+      for (std::size_t i = 0; i < pixels; ++i)
+        if (area_[i] == area)
+          visit({static_cast<double>(i % panel_width) + 0.5, static_cast<double>(i / panel_width) + 0.5});
+    };
+    each([&](Spot at) { sum.x += at.x, sum.y += at.y, ++count; });
+    std::optional<Spot> best;
+    each([&](Spot at) {
+      const Spot middle{sum.x / count, sum.y / count};
+      if (!best || squared_distance(at, middle) < squared_distance(*best, middle)) best = at;
+    });
+    return best;
+  }
+  /// The middle of the place of this size that is on the area only and nearest to a spot.
+  [[nodiscard]] auto place_for(std::uint32_t area, double width, double height, Spot near) const
+      -> std::optional<Spot> {
     const auto w = static_cast<std::size_t>(std::ceil(width)), h = static_cast<std::size_t>(std::ceil(height));
     if (w > panel_width || h > panel_height) return std::nullopt;
     constexpr std::size_t stride = panel_width + 1;
     std::vector<std::uint32_t> sums(stride * (panel_height + 1), 0);
-    double x_sum = 0, y_sum = 0, count = 0;
     for (std::size_t y = 0; y < panel_height; ++y)
-      for (std::size_t x = 0; x < panel_width; ++x) {
-        const std::uint32_t here = area_[y * panel_width + x] == area ? 1 : 0;
-        sums[(y + 1) * stride + x + 1] =
-            here + sums[y * stride + x + 1] + sums[(y + 1) * stride + x] - sums[y * stride + x];
-        if (here == 0) continue;
-        x_sum += static_cast<double>(x) + 0.5, y_sum += static_cast<double>(y) + 0.5, ++count;
-      }
-    if (count == 0) return std::nullopt;
+      for (std::size_t x = 0; x < panel_width; ++x)
+        sums[(y + 1) * stride + x + 1] = (area_[y * panel_width + x] == area ? 1 : 0) + sums[y * stride + x + 1] +
+                                         sums[(y + 1) * stride + x] - sums[y * stride + x];
     std::optional<Spot> best;
-    double nearest = 0;
     for (std::size_t y = 0; y + h <= panel_height; ++y)
       for (std::size_t x = 0; x + w <= panel_width; ++x) {
-        if (sums[(y + h) * stride + x + w] - sums[y * stride + x + w] - sums[(y + h) * stride + x] +
-                sums[y * stride + x] !=
-            w * h)
-          continue;
+        const std::size_t above = y * stride + x, below = (y + h) * stride + x;
+        if (sums[below + w] - sums[above + w] - sums[below] + sums[above] != w * h) continue;
         const Spot at{static_cast<double>(x) + width / 2, static_cast<double>(y) + height / 2};
-        const double dx = at.x - x_sum / count, dy = at.y - y_sum / count, distance = dx * dx + dy * dy;
-        if (!best || distance < nearest) best = at, nearest = distance;
+        if (!best || squared_distance(at, near) < squared_distance(*best, near)) best = at;
       }
     return best;
+  }
+  void take(Spot middle, double width, double height) {
+    const auto index = [](double at, std::size_t size) {
+      return static_cast<std::size_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(size)));
+    };
+    for (std::size_t y = index(middle.y - height / 2, panel_height); y < index(middle.y + height / 2 + 1, panel_height);
+         ++y)
+      for (std::size_t x = index(middle.x - width / 2, panel_width); x < index(middle.x + width / 2 + 1, panel_width);
+           ++x)
+        area_[y * panel_width + x] = taken;
+  }
+
+  void take_line(Spot from, Spot to) {
+    const auto steps = static_cast<int>(std::ceil(std::sqrt(squared_distance(from, to))));
+    for (int k = 0; k <= steps; ++k) {
+      const double t = steps > 0 ? static_cast<double>(k) / steps : 0;
+      take({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)}, 2, 2);
+    }
   }
 
  private:
@@ -122,17 +151,58 @@ void write_lines(Ink& ink, const std::vector<std::string>& lines, Spot middle) {
   }
 }
 
-void write_label(Ink& ink, const PlanArea& area, std::uint32_t number, const Visible& visible) {
-  constexpr double clear = 2;  // px between text and outline
+constexpr double clear = 2;  // px between text and outline
+
+struct Size {
+  double width = 0, height = 0;
+};
+auto size_of(const std::vector<std::string>& lines) -> Size {
+  Size size{0, letters + line_height * (static_cast<double>(lines.size()) - 1) + 2 * clear};
+  for (const auto& line : lines) size.width = std::max(size.width, text_width(line, letters) + 2 * clear);
+  return size;
+}
+
+/// Whether a label fits on the area.
+auto write_inside(Ink& ink, const PlanArea& area, std::uint32_t number, Visible& visible) -> bool {
+  const auto middle = visible.middle_of(number);
+  if (!middle) return false;
   for (const auto& lines : area.labels) {
-    double width = 0;
-    for (const auto& line : lines) width = std::max(width, text_width(line, letters));
-    const double height = letters + line_height * (static_cast<double>(lines.size()) - 1);
-    const auto at = visible.room_for(number, width + 2 * clear, height + 2 * clear);
+    const Size size = size_of(lines);
+    const auto at = visible.place_for(number, size.width, size.height, *middle);
     if (!at) continue;
     write_lines(ink, lines, *at);
+    visible.take(*at, size.width, size.height);
+    return true;
+  }
+  return false;
+}
+
+/// Beside all areas, with a line to its own.
+void write_beside(Ink& ink, const PlanArea& area, std::uint32_t number, Visible& visible) {
+  constexpr double farthest = 160, dot = 4;  // px
+  const auto from = visible.middle_of(number);
+  if (!from) return;
+  for (const auto& lines : area.labels) {
+    Size size = size_of(lines);
+    size.width += 2 * clear, size.height += 2 * clear;  // the line ends a little before the text
+    const auto at = visible.place_for(ground, size.width, size.height, *from);
+    if (!at || squared_distance(*at, *from) > farthest * farthest) continue;
+    write_lines(ink, lines, *at);
+    visible.take(*at, size.width, size.height);
+    ink.stroke(*from, *from, dot);
+    const Spot end{std::clamp(from->x, at->x - size.width / 2, at->x + size.width / 2),
+                   std::clamp(from->y, at->y - size.height / 2, at->y + size.height / 2)};
+    ink.stroke(*from, end, 1);
+    visible.take_line(*from, end);
     return;
   }
+}
+
+void write_labels(Ink& ink, const std::vector<PlanArea>& areas, Visible& visible) {
+  std::vector<std::uint32_t> left;
+  for (std::uint32_t a = 0; a < areas.size(); ++a)
+    if (!areas[a].labels.empty() && !write_inside(ink, areas[a], a, visible)) left.push_back(a);
+  for (const auto a : left) write_beside(ink, areas[a], a, visible);
 }
 
 }  // namespace
@@ -165,7 +235,7 @@ auto draw_panel(const PlanPanel& panel, const PlanFrame& frame) -> Image {
     outline.spread_on(image, outline_colour);
   }
   Ink ink(panel_width, panel_height);
-  for (std::uint32_t a = 0; a < panel.areas.size(); ++a) write_label(ink, panel.areas[a], a, visible);
+  write_labels(ink, panel.areas, visible);
   if (panel.areas.empty() && !panel.note.empty())
     write_lines(ink, {panel.note}, {panel_width / 2.0, panel_height / 2.0});
   ink.spread_on(image, text_colour);

@@ -6,7 +6,7 @@
 
 namespace mansard::picture::detail {
 
-inline constexpr std::size_t panel_width = 300, panel_height = 260;  // px
+inline constexpr std::size_t panel_width = 440, panel_height = 360;  // px
 
 /// What a panel shows.
 struct PlanFrame {
