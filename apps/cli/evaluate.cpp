@@ -1,6 +1,7 @@
 // `mansard evaluate MODEL MESH… [--truth T] [-o REPORT]`: how good a model is, ours or another's.
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "apps/cli/catalogue.hpp"
 #include "apps/cli/exit.hpp"
@@ -13,6 +14,7 @@
 #include "mansard/picture/picture.hpp"
 #include "mansard/pipeline/evaluation.hpp"
 #include "mansard/report/evaluation.hpp"
+#include "mansard/report/plane_plans.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -24,9 +26,17 @@ struct EvaluateRequest : Common {
   std::vector<std::string> inputs;  // the model, then the meshes
   std::string truth, footprints, lod, out;
   double error_limit = 2.0;
+  std::optional<std::size_t> plane_plans;  // buildings in planes.png
 };
 
-constexpr std::array report_names{"report.json", "error.png", "error.tif"};
+constexpr std::size_t usual_plane_plans = 24;
+
+/// What a folder gets, with and without a truth.
+auto report_names(const EvaluateRequest& request) -> std::vector<std::string> {
+  std::vector<std::string> names{"report.json", "error.png", "error.tif"};
+  if (!request.truth.empty()) names.emplace_back("planes.png");
+  return names;
+}
 
 auto is_file(const std::string& out) -> bool { return fs::path(out).extension() == ".json"; }
 
@@ -35,12 +45,21 @@ auto check_outputs(const EvaluateRequest& request) -> base::Result<void> {
   std::vector<fs::path> results;
   if (is_file(request.out)) results.emplace_back(request.out);
   else
-    for (const auto* name : report_names) results.push_back(fs::path(request.out) / name);
+    for (const auto& name : report_names(request)) results.push_back(fs::path(request.out) / name);
   std::vector<fs::path> inputs(request.inputs.begin(), request.inputs.end());
   for (const auto& extra : {request.truth, request.footprints})
     if (!extra.empty()) inputs.emplace_back(extra);
   if (auto spared = spare_inputs(results, inputs); !spared) return spared;
   return is_file(request.out) ? file_free(request.out, request.overwrite) : prepare(request.out, request.overwrite);
+}
+
+auto check_plane_plans(const EvaluateRequest& request) -> base::Result<void> {
+  if (!request.plane_plans) return {};
+  if (request.truth.empty())
+    return base::error("usage", "planes are compared with those of a truth; name it with --truth", "--plane-plans");
+  if (request.out.empty() || is_file(request.out))
+    return base::error("usage", "planes.png is written into a folder; name the folder with -o", "--plane-plans");
+  return {};
 }
 
 auto files_of(const EvaluateRequest& request) -> pipeline::EvaluationFiles {
@@ -51,7 +70,8 @@ auto files_of(const EvaluateRequest& request) -> pipeline::EvaluationFiles {
           request.lod};
 }
 
-/// The report, and in a folder the error maps too: in a colour scale that is the same for every model, and as numbers.
+/// The report, and in a folder the error maps too, in a colour scale that is the same for every model and as numbers,
+/// and with a truth the planes of both.
 auto write_all(const EvaluateRequest& request, const report::Evaluation& result, const report::EvaluationInput& input,
                const std::string& report, const base::Cancel& cancel) -> base::Result<void> {
   if (is_file(request.out)) return base::write_files({{request.out, report}}, &cancel);
@@ -64,7 +84,16 @@ auto write_all(const EvaluateRequest& request, const report::Evaluation& result,
   if (!tiff) return tiff.failure();
   files.emplace_back("error.png", std::move(*png));
   files.emplace_back("error.tif", std::move(*tiff));
-  return base::write_files(in_folder(request.out, files), &cancel);
+  if (result.truth) {
+    auto planes = picture::png(report::plane_plans(result, input, request.plane_plans.value_or(usual_plane_plans)));
+    if (!planes) return planes.failure();
+    files.emplace_back("planes.png", std::move(*planes));
+  }
+  const auto left = leftovers(request.out, "report.json", [](const std::string& name) { return name == "planes.png"; });
+  const auto all = in_folder(request.out, files);
+  if (auto written = base::write_files(all, &cancel); !written) return written;
+  remove_stale(left, all);
+  return {};
 }
 
 auto evaluate(const EvaluateRequest& request, const base::Cancel& cancel) -> int {
@@ -76,6 +105,7 @@ auto evaluate(const EvaluateRequest& request, const base::Cancel& cancel) -> int
     return give_up(order.errors());
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
+  if (auto plans = check_plane_plans(request); !plans) return give_up(plans.errors());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());
   Progress progress(request.quiet);
   const auto run = start(request, options.seed, cancel, progress);
@@ -109,10 +139,14 @@ auto evaluate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
                    "Footprints to measure over; without it, those of the true model or of the model")
       ->type_name("FILE");
   verb->add_option("--lod", request->lod, "LoD to read of both models; without it, the highest of each object");
-  verb->add_option("-o,--output", request->out, "Report (.json), or a folder for the report and the error maps")
+  verb->add_option("-o,--output", request->out, "Report (.json), or a folder for the report and the pictures")
       ->type_name("REPORT");
   verb->add_option("--error-limit", request->error_limit, "Both limits of the colour scale of the error map, in metres")
       ->check(CLI::Range(0.01, 1000.0));
+  verb->add_option("--plane-plans", request->plane_plans,
+                   "Number of buildings in planes.png, those with most wrong roof planes first; default 24")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{120}))
+      ->type_name("N");
   add_common(*verb, *request, "warnings");
   return {verb, [request, &cancel] { return evaluate(*request, cancel); }};
 }

@@ -20,20 +20,15 @@ namespace {
 using detail::degree;
 using geometry::Point3;
 
-/// Degrees from level.
-auto pitch_of(const RoofPlane& plane) -> double {
-  return geometry::arc_tangent(length(xy(plane.normal)), plane.normal.z) / degree;
-}
-
 void count_twins(const RoofPlanes& planes, Form& out) {
   const double opposite = -geometry::cosine(twin_azimuth * degree);
   const auto pitched = [](double pitch) { return pitch >= twin_least_pitch && pitch <= twin_most_pitch; };
   const auto& all = planes.planes;
   for (std::size_t p = 0; p < all.size(); ++p) {
-    const double own = pitch_of(all[p]);
+    const double own = pitch_of(all[p]) / degree;
     if (!pitched(own)) continue;
     for (auto q = p + 1; q < all.size() && all[q].building == all[p].building; ++q) {
-      const double other = pitch_of(all[q]), off = std::abs(own - other);
+      const double other = pitch_of(all[q]) / degree, off = std::abs(own - other);
       if (!pitched(other) || off > twin_pitch) continue;
       if (dot(normalised(xy(all[p].normal)), normalised(xy(all[q].normal))) > opposite) continue;
       ++out.twins;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,13 @@ inline constexpr std::uint32_t no_plane = ~0U;
 /// A face joins the plane of a larger one of its building within these two limits (all corners).
 inline constexpr double same_plane_angle = 2, same_plane_distance = 0.1;  ///< degrees, m
 [[nodiscard]] auto roof_planes_of(const model::Model& model) -> RoofPlanes;
+/// rad from level.
+[[nodiscard]] auto pitch_of(const RoofPlane& plane) -> double;
+/// rad, 0 to 2π, clockwise from north: the direction in which the plane falls; none for a level one.
+[[nodiscard]] auto azimuth_of(const RoofPlane& plane) -> std::optional<double>;
+/// The centre of the plan at the height of the plane there, which is the mean height over the plan; none without a
+/// plan.
+[[nodiscard]] auto centre_of(const RoofPlane& plane) -> std::optional<geometry::Point3>;
 
 enum class RoofLineKind : std::uint8_t { ridge, hip, valley, eave };
 inline constexpr std::size_t roof_line_kinds = 4;
@@ -108,13 +116,39 @@ struct Found {
 struct FoundBoth {
   Found truth, model;  ///< of the truth, found in the model (recall); of the model, found in the truth (precision)
 };
+
+/// A roof plane of one model, compared with those of the other one.
+struct ComparedPlane {
+  enum class Result : std::uint8_t { too_small, not_found, found };  ///< too_small: under `found_least_area`
+  /// The plane of the other model that shares the largest area with this one from above.
+  struct Nearest {
+    double angle = 0;   ///< rad between the two
+    double height = 0;  ///< m; this plane − that plane in the middle of the shared area
+    double shared = 0;  ///< m²
+  };
+  RoofPlane plane;
+  Result result = Result::not_found;
+  std::optional<Nearest> nearest;  ///< of planes that are not found; none where no plane shares any area
+};
+/// A building of the truth, or one that only the model has, with the roof planes of both models. A plane of a building
+/// that is several of the truth's is in each of those with which it shares a quarter of its own plan or of the outline.
+struct ComparedBuilding {
+  std::optional<std::uint32_t> truth;  ///< number in its model; none for a building that the truth does not have
+  std::vector<std::uint32_t> model;    ///< numbers in theirs
+  std::vector<ComparedPlane> truth_planes, model_planes;
+  double ground = 0;  ///< m; the lowest corner of the true building, without one of the model's
+  /// Whether the building is in both models, and all planes of both that are compared are found.
+  [[nodiscard]] auto every_plane_right() const -> bool;
+};
+
 struct FormTruth {
   std::size_t buildings = 0;
   FoundBoth planes;                              ///< of `found_least_area` and more
   std::array<FoundBoth, roof_line_kinds> lines;  ///< by RoofLineKind; of `found_least_length` and more
   FoundBoth dormers, structures;
-  Form form;                  ///< of the truth itself
-  std::size_t unchecked = 0;  ///< pairs of planes that could not be intersected; not found
+  std::vector<ComparedBuilding> compared;  ///< those of the truth in its order, then those that only the model has
+  Form form;                               ///< of the truth itself
+  std::size_t unchecked = 0;               ///< pairs of planes that could not be intersected; not found
 };
 /// A plane is found in one of the same building within `found_angle`, with a plan that overlaps at least half of the
 /// smaller of the two, and a vertical distance of at most `found_height` in the middle of the overlap.

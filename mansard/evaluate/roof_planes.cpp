@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "mansard/evaluate/detail/degree.hpp"
+#include "mansard/evaluate/detail/middle.hpp"
 #include "mansard/evaluate/detail/plan_of_face.hpp"
 #include "mansard/evaluate/form.hpp"
 #include "mansard/geometry/angles.hpp"
@@ -67,6 +68,25 @@ auto set_plan(RoofPlane& plane, const std::vector<const model::ModelFace*>& face
 }
 
 }  // namespace
+
+auto pitch_of(const RoofPlane& plane) -> double {
+  return geometry::arc_tangent(length(xy(plane.normal)), plane.normal.z);
+}
+
+auto azimuth_of(const RoofPlane& plane) -> std::optional<double> {
+  const Point2 down = xy(plane.normal);
+  if (down == Point2{}) return std::nullopt;
+  const double angle = geometry::arc_tangent(down.x, down.y);
+  return angle < 0 ? angle + 360 * degree : angle;
+}
+
+auto centre_of(const RoofPlane& plane) -> std::optional<Point3> {
+  detail::Middle middle;
+  middle.add(plane.plan);
+  if (!(middle.area > 0)) return std::nullopt;
+  const Point2 at = middle.centre();
+  return Point3{at.x, at.y, detail::height_at(plane, at)};
+}
 
 auto roof_planes_of(const model::Model& model) -> RoofPlanes {
   RoofPlanes out;

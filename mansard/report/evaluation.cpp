@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "mansard/base/text.hpp"
+#include "mansard/report/detail/degrees.hpp"
 #include "mansard/report/detail/form.hpp"
 #include "mansard/report/evaluation.hpp"
 
@@ -13,8 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using base::to_text;
-
-auto degrees(double radians) -> double { return radians * 180 / std::numbers::pi; }
+using detail::degrees;
 
 auto inside_json(const evaluate::InsideScores& s) -> Json {
   if (s.cells == 0) return nullptr;
@@ -293,6 +292,7 @@ auto evaluation_json(const Evaluation& e, const EvaluationInput& input) -> std::
   if (e.truth) {
     out["truth"] = json_of(*e.truth);
     out["truth"]["form"] = detail::json_of(e.truth->form, e.form);
+    out["truth"]["form"]["planes_by_building"] = detail::compared_json(e.truth->form, input);
     out["truth"]["worse_than_prism"] = ids_of(e.buildings, worse_than_prism_from_truth);
   }
   out["beside_all_footprints"] = e.beside;

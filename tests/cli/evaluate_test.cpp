@@ -107,6 +107,71 @@ TEST_F(Evaluate, finds_a_building_that_is_missing_by_the_truth) {
   EXPECT_EQ(report()["beside_all_footprints"], nlohmann::json{"b"});
 }
 
+/// The size of a PNG file, from its header.
+auto png_size(const std::string& bytes) -> std::pair<std::size_t, std::size_t> {
+  const auto number = [&](std::size_t at) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < 4; ++i) n = 256 * n + static_cast<unsigned char>(bytes[at + i]);
+    return n;
+  };
+  return {number(16), number(20)};
+}
+
+TEST_F(Evaluate, reports_and_draws_the_roof_planes_that_are_wrong) {
+  const auto truth = put("truth.obj", box("a", 0, 6) + box("b", 20, 6) + box("c", 40, 6));
+  const auto model = put("model.obj", box("A", 0, 6) + box("B", 20, 6.5) + box("D", 70, 6));
+  const auto command = "evaluate -q " + model + " " + at("scan.obj") + " --truth " + truth + " -o " + at("folder");
+  const auto outcome = run(command);
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("  buildings with every plane right: 1 of 3\n"));
+  const auto form = nlohmann::json::parse(read(at("folder/report.json")))["truth"]["form"];
+  EXPECT_EQ(form["buildings"], 3);
+  EXPECT_EQ(form["buildings_with_every_plane_right"], 1);
+  const auto& buildings = form["planes_by_building"];
+  ASSERT_EQ(buildings.size(), 4U);
+  EXPECT_EQ(buildings[0]["id"], "a");
+  EXPECT_EQ(buildings[0]["model_ids"], nlohmann::json{"A"});
+  EXPECT_TRUE(buildings[0]["every_plane_right"].get<bool>());
+  EXPECT_EQ(buildings[0]["truth_found"], 1);
+  EXPECT_TRUE(buildings[0]["truth_not_found"].empty());
+  EXPECT_FALSE(buildings[1]["every_plane_right"].get<bool>());
+  EXPECT_EQ(buildings[1]["model"], 1);
+  EXPECT_EQ(buildings[1]["model_right"], 0);
+  const auto& wrong = buildings[1]["model_wrong"][0];
+  EXPECT_EQ(wrong["pitch_deg"], 0);
+  EXPECT_TRUE(wrong["azimuth_deg"].is_null());
+  EXPECT_NEAR(wrong["area_m2"].get<double>(), 96, 1e-9);
+  EXPECT_NEAR(wrong["height_above_ground_m"].get<double>(), 6.5, 1e-9);
+  EXPECT_NEAR(wrong["centre"][0].get<double>(), 26, 1e-9);
+  EXPECT_NEAR(wrong["nearest"]["height_m"].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(buildings[1]["truth_not_found"][0]["nearest"]["height_m"].get<double>(), -0.5, 1e-9);
+  EXPECT_EQ(buildings[2]["model_ids"], nlohmann::json::array());
+  EXPECT_TRUE(buildings[2]["truth_not_found"][0]["nearest"].is_null());
+  EXPECT_TRUE(buildings[3]["id"].is_null());
+  EXPECT_EQ(buildings[3]["model_ids"], nlohmann::json{"D"});
+
+  // Three buildings in two rows, or as many as are asked for.
+  const auto whole = read(at("folder/planes.png"));
+  const auto [width, height] = png_size(whole);
+  expect_refusal(run(command), 2, "output-exists");
+  ASSERT_EQ(run(command + " --overwrite --plane-plans 1 -j 1").exit, 0);
+  EXPECT_LT(png_size(read(at("folder/planes.png"))).first, width);
+  EXPECT_LT(png_size(read(at("folder/planes.png"))).second, height);
+  ASSERT_EQ(run(command + " --overwrite -j 1").exit, 0);
+  EXPECT_EQ(read(at("folder/planes.png")), whole);
+  // A folder has the pictures of one evaluation only.
+  ASSERT_EQ(run("evaluate -q " + model + " " + at("scan.obj") + " -o " + at("folder") + " --overwrite").exit, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "folder" / "planes.png"));
+}
+
+TEST_F(Evaluate, says_what_the_number_of_plans_needs) {
+  const auto model = put("model.obj", box("a", 0, 6));
+  const auto command = "evaluate -q " + model + " " + at("scan.obj") + " --plane-plans 5 ";
+  expect_refusal(run(command + "-o " + at("folder")), 2, "usage", "name it with --truth");
+  expect_refusal(run(command + "--truth " + model), 2, "usage", "name the folder with -o");
+  expect_refusal(run(command + "--truth " + model + " -o " + at("report.json")), 2, "usage", "into a folder");
+}
+
 TEST_F(Evaluate, measures_over_footprints_that_are_given) {
   const std::string wide = geojson(polygon("[0,0],[16,0],[16,8],[0,8],[0,0]"), "");
   const auto outcome = evaluate(box("a", 0, 6), "--footprints " + put("wide.geojson", wide));
@@ -135,7 +200,7 @@ TEST_F(Evaluate, gives_the_same_bytes_with_one_thread_and_two) {
                   " -o " + at(threads) + " -j " + threads)
                   .exit,
               0);
-  for (const auto* name : {"/report.json", "/error.png", "/error.tif"})
+  for (const auto* name : {"/report.json", "/error.png", "/error.tif", "/planes.png"})
     EXPECT_EQ(read(at("1") + name), read(at("2") + name)) << name;
 }
 

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "evaluate/models.hpp"
 
 namespace {
@@ -176,15 +180,15 @@ TEST(Form, of_a_wing_against_a_house_has_a_valley) {
 
 TEST(FormTruth, finds_everything_in_a_model_that_is_the_truth) {
   const auto truth = model_of({{gable({0, 0}, {12, 8}, 0, 6, 10), box({4, 1}, {6, 3.5}, 5, 8.8)}});
-  const auto found = compared(truth, truth);
-  EXPECT_EQ(found.planes.truth.count, 3U);
-  EXPECT_EQ(found.planes.truth.found, 3U);
-  EXPECT_EQ(found.planes.model.found, 3U);
-  EXPECT_EQ(found.lines[0].truth.count, 1U);
-  EXPECT_EQ(found.lines[0].truth.found, 1U);
-  EXPECT_EQ(found.dormers.truth.found, 1U);
-  EXPECT_EQ(found.dormers.model.found, 1U);
-  EXPECT_EQ(found.unchecked, 0U);
+  const auto both = compared(truth, truth);
+  EXPECT_EQ(both.planes.truth.count, 3U);
+  EXPECT_EQ(both.planes.truth.found, 3U);
+  EXPECT_EQ(both.planes.model.found, 3U);
+  EXPECT_EQ(both.lines[0].truth.count, 1U);
+  EXPECT_EQ(both.lines[0].truth.found, 1U);
+  EXPECT_EQ(both.dormers.truth.found, 1U);
+  EXPECT_EQ(both.dormers.model.found, 1U);
+  EXPECT_EQ(both.unchecked, 0U);
 }
 
 TEST(FormTruth, does_not_find_a_flat_roof_for_a_gable_nor_a_gable_half_a_metre_higher) {
@@ -212,6 +216,91 @@ TEST(FormTruth, compares_a_building_of_the_model_with_all_true_ones_that_it_cove
   EXPECT_EQ(merged.planes.truth.count, 4U);
   EXPECT_EQ(merged.planes.truth.found, 4U);
   EXPECT_EQ(merged.planes.model.found, 2U);
+}
+
+auto results(const std::vector<ComparedPlane>& planes) {
+  std::vector<ComparedPlane::Result> out;
+  for (const auto& plane : planes) out.push_back(plane.result);
+  return out;
+}
+constexpr auto found = ComparedPlane::Result::found, not_found = ComparedPlane::Result::not_found,
+               too_small = ComparedPlane::Result::too_small;
+using Results = std::vector<ComparedPlane::Result>;
+
+TEST(FormTruth, says_which_planes_of_a_building_are_found_and_how_far_off_the_others_are) {
+  // The roof is right, the flat annex 0.4 m too high; a box of 0.8 m² on it is in the model only.
+  const auto house = gable({0, 0}, {12, 8}, 0, 6, 9);
+  const auto truth = model_of({{house, box({12, 0}, {16, 8}, 0, 3)}});
+  const auto off = compared(truth, model_of({{house, box({12, 0}, {16, 8}, 0, 3.4), box({13, 1}, {14, 1.8}, 3.4, 5)}}));
+  ASSERT_EQ(off.compared.size(), 1U);
+  const auto& one = off.compared[0];
+  EXPECT_EQ(one.truth, 0U);
+  EXPECT_EQ(one.model, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(results(one.truth_planes), (Results{found, found, not_found}));
+  EXPECT_EQ(results(one.model_planes), (Results{found, found, not_found, too_small}));
+  EXPECT_FALSE(one.every_plane_right());
+  EXPECT_FALSE(one.truth_planes[0].nearest);
+  ASSERT_TRUE(one.truth_planes[2].nearest && one.model_planes[2].nearest);
+  EXPECT_NEAR(one.truth_planes[2].nearest->height, -0.4, 1e-9);
+  EXPECT_NEAR(one.model_planes[2].nearest->height, 0.4, 1e-9);
+  EXPECT_NEAR(one.model_planes[2].nearest->shared, 32, 1e-9);
+  EXPECT_NEAR(one.model_planes[2].nearest->angle, 0, 1e-9);
+  EXPECT_DOUBLE_EQ(one.ground, 0);
+  // What is too small for a comparison does no harm.
+  const auto same = compared(truth, model_of({{house, box({12, 0}, {16, 8}, 0, 3), box({13, 1}, {14, 1.8}, 3, 5)}}));
+  EXPECT_TRUE(same.compared[0].every_plane_right());
+}
+
+TEST(FormTruth, does_not_call_a_building_right_that_the_model_or_the_truth_does_not_have) {
+  const auto west = gable({0, 0}, {6, 8}, 0, 6, 9), east = gable({20, 0}, {26, 8}, 2, 6, 9);
+  const auto missing = compared(model_of({{west}, {east}}), model_of({{west}}));
+  ASSERT_EQ(missing.compared.size(), 2U);
+  EXPECT_TRUE(missing.compared[0].every_plane_right());
+  EXPECT_FALSE(missing.compared[1].every_plane_right());
+  EXPECT_TRUE(missing.compared[1].model.empty());
+  EXPECT_EQ(results(missing.compared[1].truth_planes), (Results{not_found, not_found}));
+  const auto added = compared(model_of({{west}}), model_of({{west}, {east}}));
+  ASSERT_EQ(added.compared.size(), 2U);
+  EXPECT_FALSE(added.compared[1].truth);
+  EXPECT_EQ(added.compared[1].model, std::vector<std::uint32_t>{1});
+  EXPECT_EQ(results(added.compared[1].model_planes), (Results{not_found, not_found}));
+  EXPECT_FALSE(added.compared[1].every_plane_right());
+  EXPECT_DOUBLE_EQ(added.compared[1].ground, 2);
+}
+
+TEST(FormTruth, gives_a_true_building_the_planes_of_a_building_that_is_several_of_the_truth) {
+  const auto west = gable({0, 0}, {6, 8}, 0, 6, 9), east = gable({6, 0}, {12, 8}, 0, 6, 9);
+  const auto truth = model_of({{west}, {east}});
+  const auto joined = compared(truth, model_of({{gable({0, 0}, {12, 8}, 0, 6, 9)}}));
+  for (const auto& building : joined.compared) {
+    EXPECT_EQ(results(building.model_planes), (Results{found, found}));
+    EXPECT_TRUE(building.every_plane_right());
+  }
+  // One building of the model with the west roof right and the east one wrong.
+  const auto half = compared(truth, model_of({{west, box({6, 0}, {12, 8}, 0, 7.5)}}));
+  EXPECT_TRUE(half.compared[0].every_plane_right());
+  EXPECT_EQ(results(half.compared[1].truth_planes), (Results{not_found, not_found}));
+  EXPECT_EQ(results(half.compared[1].model_planes), (Results{not_found}));
+}
+
+TEST(RoofPlanes, have_a_pitch_an_azimuth_and_a_mean_height) {
+  const auto planes = roof_planes_of(model_of({{gable({0, 0}, {12, 8}, 0, 6, 9)}})).planes;  // the ridge runs along x
+  ASSERT_EQ(planes.size(), 2U);
+  std::vector<double> azimuths;
+  for (const auto& plane : planes) {
+    EXPECT_NEAR(pitch_of(plane), std::atan(0.75), 1e-12);
+    const auto azimuth = azimuth_of(plane);
+    const auto centre = centre_of(plane);
+    ASSERT_TRUE(azimuth && centre);
+    azimuths.push_back(*azimuth);
+    EXPECT_NEAR(centre->x, 6, 1e-9);
+    EXPECT_NEAR(centre->y, *azimuth < 1 ? 6 : 2, 1e-9);
+    EXPECT_NEAR(centre->z, 7.5, 1e-9);
+  }
+  std::ranges::sort(azimuths);
+  EXPECT_NEAR(azimuths[0], 0, 1e-12);
+  EXPECT_NEAR(azimuths[1], std::numbers::pi, 1e-12);
+  EXPECT_FALSE(azimuth_of(roof_planes_of(model_of({{box({0, 0}, {1, 1}, 0, 1)}})).planes[0]));
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include "mansard/report/detail/form.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "mansard/base/text.hpp"
+#include "mansard/report/detail/degrees.hpp"
 
 namespace mansard::report::detail {
 namespace {
@@ -52,7 +55,72 @@ auto plane_ratio(const evaluate::FormTruth& found, const evaluate::Form& form) -
   return {per_building(form.planes, form.buildings), per_building(found.form.planes, found.form.buildings)};
 }
 
+auto right_buildings(const evaluate::FormTruth& found) -> std::size_t {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(found.compared, [](const auto& building) { return building.every_plane_right(); }));
+}
+
+auto json_of(const std::optional<evaluate::ComparedPlane::Nearest>& nearest) -> Json {
+  if (!nearest) return nullptr;
+  return {{"angle_deg", degrees(nearest->angle)}, {"height_m", nearest->height}, {"shared_m2", nearest->shared}};
+}
+
+/// The planes that are not found in the other model.
+auto wrong_json(const std::vector<evaluate::ComparedPlane>& planes, double ground, const model::Frame& frame) -> Json {
+  Json out = Json::array();
+  for (const auto& one : planes) {
+    if (one.result != evaluate::ComparedPlane::Result::not_found) continue;
+    const auto azimuth = evaluate::azimuth_of(one.plane);
+    const auto centre = evaluate::centre_of(one.plane);
+    const auto in_file = [&](double local, std::size_t axis) {
+      return Json(local + static_cast<double>(frame.origin[axis]));
+    };
+    out.push_back(
+        {{"pitch_deg", degrees(evaluate::pitch_of(one.plane))},
+         {"azimuth_deg", azimuth ? Json(degrees(*azimuth)) : Json(nullptr)},
+         {"area_m2", one.plane.area},
+         {"height_above_ground_m", centre ? Json(centre->z - ground) : Json(nullptr)},
+         {"centre", centre ? Json{in_file(centre->x, 0), in_file(centre->y, 1), in_file(centre->z, 2)} : Json(nullptr)},
+         {"nearest", json_of(one.nearest)}});
+  }
+  return out;
+}
+
 }  // namespace
+
+auto sum_of(const std::vector<evaluate::ComparedPlane>& planes) -> evaluate::Found {
+  using Result = evaluate::ComparedPlane::Result;
+  evaluate::Found sum;
+  for (const auto& one : planes) {
+    const bool found = one.result == Result::found;
+    if (one.result != Result::too_small) sum.add(one.plane.area, found ? one.plane.area : 0, found);
+  }
+  return sum;
+}
+
+auto buildings_right(const evaluate::FormTruth& found) -> std::string {
+  return of(right_buildings(found), found.buildings);
+}
+
+auto compared_json(const evaluate::FormTruth& found, const EvaluationInput& input) -> Json {
+  Json out = Json::array();
+  for (const auto& building : found.compared) {
+    const auto truth = sum_of(building.truth_planes), model = sum_of(building.model_planes);
+    Json ids = Json::array();
+    for (const auto m : building.model) ids.push_back(input.model.buildings[m].id);
+    out.push_back(
+        {{"id", building.truth && input.truth ? Json(input.truth->buildings[*building.truth].id) : Json(nullptr)},
+         {"model_ids", std::move(ids)},
+         {"truth", truth.count},
+         {"truth_found", truth.found},
+         {"model", model.count},
+         {"model_right", model.found},
+         {"every_plane_right", building.every_plane_right()},
+         {"truth_not_found", wrong_json(building.truth_planes, building.ground, input.scene.frame)},
+         {"model_wrong", wrong_json(building.model_planes, building.ground, input.scene.frame)}});
+  }
+  return out;
+}
 
 auto json_of(const evaluate::Form& f) -> Json {
   return {{"planes", f.planes},
@@ -82,6 +150,8 @@ auto json_of(const evaluate::FormTruth& found, const evaluate::Form& form) -> Js
   return {{"truth_itself", json_of(found.form)},
           {"planes_per_building_to_truth", share(own, real)},
           {"planes", json_of(found.planes, "m2")},
+          {"buildings", found.buildings},
+          {"buildings_with_every_plane_right", right_buildings(found)},
           {"lines", lines},
           {"dormers", json_of(found.dormers, "m2")},
           {"roof_structures", json_of(found.structures, "m2")},
@@ -107,7 +177,8 @@ auto lines_of(const evaluate::Form& f) -> std::vector<Line> {
 auto lines_of(const evaluate::FormTruth& found, const evaluate::Form& form) -> std::vector<Line> {
   const auto [own, real] = plane_ratio(found, form);
   std::vector<Line> out{{"  planes per building", to_text(own, 2) + ", of the truth " + to_text(real, 2)},
-                        {"  planes recalled", in_words(found.planes, "area")}};
+                        {"  planes recalled", in_words(found.planes, "area")},
+                        {"  buildings with every plane right:", buildings_right(found)}};
   for (std::size_t k = 0; k < found.lines.size(); ++k)
     out.emplace_back("  " + std::string(to_string(static_cast<evaluate::RoofLineKind>(k))) + "s recalled",
                      in_words(found.lines[k], "length"));
