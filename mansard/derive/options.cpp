@@ -25,10 +25,6 @@ auto option_list(Options& o) -> base::OptionList {
       .source("docs/decisions/0022");
   list.number("shortest", o.shortest, "m", {0, 50}, "Minimum length of a side that is drawn.")
       .source("docs/decisions/0022");
-  list.number("maximum_cells", o.maximum_cells, "", {1, 1e12}, "Maximum number of cells of the grid of heights.")
-      .advanced("a few gigabytes of memory");
-  list.number("ground_slope", o.ground_slope, "", {0, 10}, "Maximum slope of the ground between neighbouring cells.")
-      .advanced("chosen by hand; not measured");
   list.number("ground_noise", o.ground_noise, "m", {0, 5},
               "Height difference between neighbouring cells that is noise.")
       .advanced("chosen by hand; not measured");
@@ -41,11 +37,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("pit_width", o.pit_width, "m", {0.1, 100}, "Pits narrower than this are holes in the mesh.")
       .advanced("chosen by hand; not measured");
   list.number("plane_distance", o.plane_distance, "m", {0.001, 10}, "Maximum distance of a cell from its plane.")
-      .advanced("chosen by hand; not measured");
-  list.number("plane_cosine", o.plane_cosine, "", {0, 1},
-              "Cosine of the maximum angle between a cell's surface and its plane.")
-      .advanced("chosen by hand; not measured");
-  list.number("plane_slope", o.plane_slope, "", {0.01, 100}, "Maximum slope of a plane of a roof.")
       .advanced("chosen by hand; not measured");
   list.number("plane_area", o.plane_area, "m²", {0.1, 1000}, "Minimum area of a plane of a roof.")
       .advanced("chosen by hand; not measured");
@@ -63,14 +54,8 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("wide_rim", o.wide_rim, "m", {0, 50},
               "Width of the rim of a mostly smooth piece that belongs to its building.")
       .advanced("chosen by hand; not measured");
-  list.number("wide_rim_smooth", o.wide_rim_smooth, "", {0, 100},
-              "Smoothness from which a piece is mostly smooth, as a multiple of derive.smooth.")
-      .advanced("chosen by hand; not measured");
   list.number("judged_area", o.judged_area, "m²", {0, 1000},
               "Pieces smaller than this belong to the piece that they are on.")
-      .advanced("chosen by hand; not measured");
-  list.integer("judged_rounds", o.judged_rounds, "", {0, 1000},
-               "Number of rounds in which small pieces are assigned by their neighbours.")
       .advanced("chosen by hand; not measured");
   list.number("minimum_width", o.minimum_width, "m", {0, 50}, "Minimum width of a building.")
       .advanced("chosen by hand; not measured");
@@ -85,31 +70,8 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("snap_turn", o.snap_turn, "rad", {0, 1.5},
               "Maximum angle by which a side is turned to be parallel to others.")
       .advanced("chosen by hand; not measured");
-  list.number("snap_moved", o.snap_moved, "", {0, 100},
-              "Maximum movement of a side's ends when it is turned, as a multiple of derive.tolerance.")
-      .advanced("chosen by hand; not measured");
   list.number("parallel_turn", o.parallel_turn, "rad", {0.001, 0.5},
               "Lines that differ by less than this angle have no corner.")
-      .advanced("chosen by hand; not measured");
-  list.number("minimum_overlap", o.minimum_overlap, "", {0, 1},
-              "Minimum overlap of an outline and its straight version, as the ratio of intersection to union.")
-      .advanced("chosen by hand; not measured");
-  list.number("corner_trim", o.corner_trim, "", {0, 100},
-              "Length at both ends of a side that is not fitted, as a multiple of derive.tolerance.")
-      .advanced("chosen by hand; not measured");
-  list.number("corner_reach", o.corner_reach, "", {0, 100},
-              "Maximum distance of a corner from its outline, as a multiple of derive.tolerance.")
-      .advanced("chosen by hand; not measured");
-  list.number("bevel_length", o.bevel_length, "", {0, 100},
-              "Maximum length of a bevel that becomes a corner, as a multiple of derive.tolerance.")
-      .advanced("chosen by hand; not measured");
-  list.number("drop_reach", o.drop_reach, "", {0, 100},
-              "Maximum distance of the corner that replaces a short side, as a multiple of derive.tolerance.")
-      .advanced("chosen by hand; not measured");
-  list.integer("directions", o.directions, "", {1, 100}, "Maximum number of wall directions of a building.")
-      .advanced("chosen by hand; not measured");
-  list.number("direction_share", o.direction_share, "", {0, 1},
-              "Minimum share of the perimeter in an additional wall direction.")
       .advanced("chosen by hand; not measured");
   list.number("direction_width", o.direction_width, "rad", {0.001, 0.5},
               "Angle within which sides agree on a direction.")

@@ -77,6 +77,7 @@ auto segment(const model::Scene& scene, const Options& options, const base::Run&
         const auto own = block::in_own_frame(block);
         const detail::Shown shown(own.block,
                                   detail::crowns_over(own.block, options, inner, tell, result.report, result.warnings));
+        result.report.accuracy = detail::accuracy_of(own.block, shown, options);
         result.segmented =
             detail::segment_block(shown.block(), shown.mesh(), options, inner, tell, result.report, result.warnings);
         detail::place(result.segmented, own);

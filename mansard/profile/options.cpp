@@ -40,9 +40,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("overhang_clear", o.overhang_clear, "m", {0, 5},
               "Distance below the lowest possible soffit within which no wall is read.")
       .advanced("chosen by hand; not measured");
-  list.number("overhang_shadow", o.overhang_shadow, "", {0, 1},
-              "Minimum share of the height of the wall below the eaves that a slice shows.")
-      .advanced("chosen by hand; not measured");
   list.number("overhang_near", o.overhang_near, "m", {0.05, 5},
               "Maximum distance between an edge and the wall that is seen below its eaves.")
       .advanced("chosen by hand; not measured");
@@ -65,8 +62,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("slice_margin", o.slice_margin, "m", {0, 20},
               "Distance from the ends of an edge within which no slice is made, because scans round off corners.")
       .advanced("chosen by hand; not measured");
-  list.number("slices_per_edge", o.slices_per_edge, "", {1, 10000}, "Maximum number of slices of an edge.")
-      .advanced("keeps the time of long edges in bounds; 100 slices were enough for every edge looked at");
   list.number("climb_near", o.climb_near, "m", {0.05, 20}, "Distance from an edge within which its wall is looked for.")
       .advanced("chosen by hand; not measured");
   list.number("climb_above_low", o.climb_above_low, "m", {0, 20},
@@ -79,12 +74,6 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("climb_roof_next", o.climb_roof_next, "m", {0.01, 20},
               "Spacing of the places at which a roof without a wall is looked for.")
-      .advanced("chosen by hand; not measured");
-  list.number("wall_low_weight", o.wall_low_weight, "", {0, 1},
-              "Weight of mesh below profile.low_height in the position of a wall.")
-      .advanced("chosen by hand; not measured");
-  list.number("wall_lean", o.wall_lean, "", {1, 20},
-              "Maximum lean of a piece of wall, as a multiple of the tangent of profile.vertical_angle.")
       .advanced("chosen by hand; not measured");
   list.number("wall_minimum", o.wall_minimum, "m", {0, 50}, "Minimum height of wall that has a position.")
       .advanced("reference implementation chordatlas: 1 m");
@@ -101,43 +90,18 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("corner", o.corner, "m", {0, 5}, "Distance over which scans round off gutters and ridges.")
       .advanced("chosen by hand; not measured");
-  list.number("rising_slope", o.rising_slope, "", {0, 10}, "Minimum slope of a roof that rises.")
-      .advanced("chosen by hand; not measured");
-  list.number("rising_oblique", o.rising_oblique, "", {0, 10},
-              "Maximum slope of a roof along its edge, as a share of the slope across.")
-      .advanced("chosen by hand; not measured");
   list.number("rising_start", o.rising_start, "m", {0, 20},
               "Maximum distance from the wall to the start of a rising roof.")
       .advanced("chosen by hand; not measured");
   list.number("rising_shortest", o.rising_shortest, "m", {0, 20}, "Minimum length of a rising roof.")
       .advanced("chosen by hand; not measured");
-  list.integer("rising_tile", o.rising_tile, "", {2, 100}, "Number of columns in the plane whose slope is fitted.")
-      .advanced("chosen by hand; not measured");
-  list.integer("rising_tile_step", o.rising_tile_step, "", {1, 100},
-               "Number of columns between planes whose slopes are fitted.")
-      .advanced("chosen by hand; not measured");
-  list.integer("rising_misses", o.rising_misses, "", {0, 100},
-               "Number of consecutive planes without rise over which a roof continues.")
-      .advanced("chosen by hand; not measured");
   list.number("rising_beside", o.rising_beside, "m", {0, 20},
               "Distance along an edge within which slices contribute to a fitted slope.")
       .advanced("chosen by hand; not measured");
-  list.number("pool_share", o.pool_share, "", {0, 1},
-              "Minimum share of rising slices that must reach a column for it to count.")
-      .advanced("chosen by hand; not measured");
   list.number("setback_step", o.setback_step, "m", {0.1, 50}, "Minimum step of the wall behind a setback.")
       .advanced("docs/decisions/0017; not measured");
-  list.integer("setback_blur", o.setback_blur, "", {1, 20},
-               "Number of columns to either side of a setback's wall that a scan smears.")
-      .advanced("chosen by hand; not measured");
-  list.integer("setback_depth", o.setback_depth, "", {1, 100}, "Minimum number of columns before a setback's wall.")
-      .advanced("chosen by hand; not measured");
   list.number("setback_level", o.setback_level, "m", {0, 20},
               "Maximum height difference within the part before a setback.")
-      .advanced("chosen by hand; not measured");
-  list.number("level_slope", o.level_slope, "", {0, 1}, "Slope below which a pitch is level.")
-      .advanced("chosen by hand; not measured");
-  list.integer("pitch_columns", o.pitch_columns, "", {2, 100}, "Minimum number of columns of a pitch.")
       .advanced("chosen by hand; not measured");
   list.number("pitch_price", o.pitch_price, "m²", {0, 1000},
               "Sum of squared errors over the columns that an additional pitch must save.")
@@ -157,14 +121,8 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("hip_corner_from", o.hip_corner_from, "m", {0, 100},
               "Minimum length of an edge at whose ends slices do not count.")
       .advanced("chosen by hand; not measured");
-  list.number("pitched_share", o.pitched_share, "", {0, 1},
-              "Minimum share of an edge's slices that must rise for it to have a pitched roof.")
-      .advanced("chosen by hand; not measured");
   list.number("short_run", o.short_run, "m", {0, 50},
               "Edges shorter than this take the profile of a neighbour, or are walls.")
-      .advanced("chosen by hand; not measured");
-  list.number("gentle_turn", o.gentle_turn, "", {0, 10},
-              "Tangent of the maximum angle between a short edge and the neighbour whose profile it takes.")
       .advanced("chosen by hand; not measured");
   list.number("minimum_height", o.minimum_height, "m", {0.01, 50}, "Minimum height of a building.")
       .advanced("chosen by hand; not measured");
@@ -177,20 +135,11 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("cap_ridge", o.cap_ridge, "", {0, 1}, "Percentile of the mesh's heights that is the ridge height.")
       .advanced("chosen by hand; not measured");
-  list.number("choice_samples", o.choice_samples, "", {10, 1e6},
-              "Maximum number of height samples per part when profiles are chosen.")
-      .advanced("chosen by hand; not measured");
   list.number("choice_grid", o.choice_grid, "m", {0.02, 10},
               "Minimum spacing of the height samples when profiles are chosen.")
       .advanced("the cell of the paper's error measure");
   list.number("choice_outlier", o.choice_outlier, "m", {0.1, 100},
               "Differences between roof and mesh larger than this count as this, because of trees and steps.")
-      .advanced("chosen by hand; not measured");
-  list.number("choice_gain", o.choice_gain, "", {0, 1},
-              "Share of the error below which another profile replaces the first choice.")
-      .advanced("chosen by hand; not measured");
-  list.integer("choice_rounds", o.choice_rounds, "", {1, 1000},
-               "Maximum number of rounds in which profiles are chosen.")
       .advanced("chosen by hand; not measured");
   return list;
 }

@@ -31,7 +31,8 @@ struct Options {
   // Overhanging eaves.
   double overhang_wall = 0.8;    ///< m of wall below the eaves, at least
   double overhang_clear = 0.3;   ///< m below the deepest edge of the roof, and above low_height, where no wall is read
-  double overhang_shadow = 0.5;  ///< share of the wall's height between these that a slice must show
+  /// Minimum share of the height of the wall below the eaves that a slice shows. Chosen by hand; not measured.
+  double overhang_shadow = 0.5;
   double overhang_near = 0.5;    ///< m between the plan's edge and the wall, at most
   double overhang_agree = 0.15;  ///< m; slices whose wall is farther from the median do not count
   double overhang_level = 0.05;  ///< m between heights of the scan that are read
@@ -42,7 +43,8 @@ struct Options {
   double slice_outward = 2.0;    ///< m outside the edge where a slice begins
   double slice_inward = 40.0;    ///< m inside the edge where a slice ends at the latest
   double slice_margin = 0.3;     ///< m; corners are rounded in scans
-  double slices_per_edge = 100;  ///< slices an edge, at most
+  /// Maximum number of slices of an edge. Keeps the time of long edges in bounds; 100 slices were enough for every edge looked at.
+  double slices_per_edge = 100;
 
   // The climb.
   double climb_near = 1.5;        ///< m; the climb starts this near to the foot
@@ -50,7 +52,9 @@ struct Options {
   double climb_clear = 1.0;       ///< m above ground; lower pieces are terrain
   double climb_roof_first = 0.6;  ///< m inward of the edge where, without a wall, a roof is looked for first
   double climb_roof_next = 0.3;   ///< m between that and the next places
-  double wall_low_weight = 0.2;   ///< of what is seen below low_height
+  /// Weight of mesh below profile.low_height in the position of a wall. Chosen by hand; not measured.
+  double wall_low_weight = 0.2;
+  /// Maximum lean of a piece of wall, as a multiple of the tangent of profile.vertical_angle. Chosen by hand; not measured.
   double wall_lean =
       3.0;  ///< times the tangent of vertical_angle; single noisy triangles lean more than the wall they make
   double wall_minimum = 1.0;  ///< m; less is no wall
@@ -61,25 +65,35 @@ struct Options {
   double far_wall_from = 2.0;  ///< m; shorter slices go on to it
   double wall_deepest = 1.5;   ///< m inward of the edge; a wall farther in does not move the start of the roof any more
   double corner = 0.3;         ///< m; scans round off gutters and ridges
-  double rising_slope = 0.1;   ///< Δheight / Δinward of a roof that counts as rising
-  double rising_oblique = 0.6;       ///< greatest slope along the run, as a share of the one across: about 30°
+  /// Minimum slope of a roof that rises. Chosen by hand; not measured.
+  double rising_slope = 0.1;
+  /// Maximum slope of a roof along its edge, as a share of the slope across. Chosen by hand; not measured.
+  double rising_oblique = 0.6;
   double rising_start = 1.6;         ///< m; parapets and gutters may lie before the roof
   double rising_shortest = 0.8;      ///< m; a rise over less is a rounded corner
-  std::size_t rising_tile = 5;       ///< columns of the plane whose slope is taken: one metre
-  std::size_t rising_tile_step = 2;  ///< columns from one such plane to the next
-  std::size_t rising_misses = 2;     ///< planes in a row that need not rise: a skylight, a chimney
+  /// Number of columns in the plane whose slope is fitted. Chosen by hand; not measured.
+  std::size_t rising_tile = 5;
+  /// Number of columns between planes whose slopes are fitted. Chosen by hand; not measured.
+  std::size_t rising_tile_step = 2;
+  /// Number of consecutive planes without rise over which a roof continues. Chosen by hand; not measured.
+  std::size_t rising_misses = 2;
   double rising_beside = 0.5;        ///< m; slices this near help to tell the slope
-  double pool_share = 0.25;          ///< of the slices that rise must reach a column: a hip thins out towards its tip
+  /// Minimum share of rising slices that must reach a column for it to count. Chosen by hand; not measured.
+  double pool_share = 0.25;
 
   // Setbacks.
   double setback_step = 1.5;      ///< m from the lower roof up
-  std::size_t setback_blur = 2;   ///< columns to either side of the wall that a scan smears
-  std::size_t setback_depth = 4;  ///< columns before the wall, at least
+  /// Number of columns to either side of a setback's wall that a scan smears. Chosen by hand; not measured.
+  std::size_t setback_blur = 2;
+  /// Minimum number of columns before a setback's wall. Chosen by hand; not measured.
+  std::size_t setback_depth = 4;
   double setback_level = 1.0;     ///< m between the heights of the part before it
-  double level_slope = 0.05;      ///< slope; flatter is flat
+  /// Slope below which a pitch is level. Chosen by hand; not measured.
+  double level_slope = 0.05;
 
   // Pitches.
-  std::size_t pitch_columns = 4;  ///< columns of a pitch, at least
+  /// Minimum number of columns of a pitch. Chosen by hand; not measured.
+  std::size_t pitch_columns = 4;
   double pitch_price = 0.15;  ///< m² · columns: what another pitch must save, 0.1 m over about fifteen columns (3 m of
                               ///< roof), or more over fewer
   double pitch_gain = 0.6;       ///< m; scans round off the edges of flat roofs too: what rises less is no pitch
@@ -87,9 +101,11 @@ struct Options {
   double single_pitch_tolerance = 1.0;  ///< m; the same for a single pitch, which stands for all that a roof does
   double hip_corner = 1.0;              ///< m; at a hip the neighbour's roof begins there
   double hip_corner_from = 2.6;         ///< m; on shorter edges all slices count
-  double pitched_share = 0.4;           ///< of an edge's slices that must rise; dormers may take the rest
+  /// Minimum share of an edge's slices that must rise for it to have a pitched roof. Chosen by hand; not measured.
+  double pitched_share = 0.4;
   double short_run = 1.0;               ///< m; shorter runs follow a neighbour or stand as walls
-  double gentle_turn = 0.5463;          ///< tangent of 0.5 rad: runs follow neighbours that they turn from by less
+  /// Tangent of the maximum angle between a short edge and the neighbour whose profile it takes. Chosen by hand; not measured.
+  double gentle_turn = 0.5463;
 
   // Heights and caps.
   double assumed_height = 3.0;  ///< m; where nothing was seen at all; no option: pipeline.assumed_height
@@ -100,12 +116,14 @@ struct Options {
   double cap_ridge = 0.99;      ///< percentile of the heights that counts as the ridge
 
   // Choice between profiles.
-  double choice_samples = 3000;  ///< samples a part, at most
+  /// Maximum number of height samples per part when profiles are chosen. Chosen by hand; not measured.
+  double choice_samples = 3000;
   double choice_grid = 0.25;     ///< m between samples, at least
   double choice_outlier = 3.0;   ///< m; larger differences (trees, steps) count as this
-  double choice_gain = 0.97;  ///< of the error that another profile may leave: the greedy choice has the closer look;
-                              ///< noise must not overrule it
-  std::size_t choice_rounds = 3;  ///< over all runs
+  /// Share of the error below which another profile replaces the first choice. Chosen by hand; not measured.
+  double choice_gain = 0.97;
+  /// Maximum number of rounds in which profiles are chosen. Chosen by hand; not measured.
+  std::size_t choice_rounds = 3;
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -67,41 +67,12 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("a centimetre: what surveys resolve");
   list.number("cap_clearance", o.cap_clearance, "m", {0.0001, 1}, "Height of the cap above the ridge.")
       .advanced("a centimetre, which no file shows: the roof closes below");
-  list.number("rectangle_fill", o.rectangle_fill, "", {0, 1},
-              "Minimum share of its smallest box that an outline with a single ridge fills.")
-      .advanced("chosen by hand; not measured");
   list.number("wing_corner", o.wing_corner, "rad", {0, 1.5},
               "Maximum deviation from a right angle at the corners of a wing's end.")
-      .advanced("chosen by hand; not measured");
-  list.number("wing_depth", o.wing_depth, "", {0, 10}, "Minimum depth of a wing, as a share of its width.")
-      .advanced("chosen by hand; not measured");
-  list.number("wing_clearance", o.wing_clearance, "", {0, 1},
-              "Minimum distance from the outline to the top of the triangle over a wing's end, as a share of the "
-              "triangle's height.")
-      .advanced("chosen by hand; not measured");
-  list.number("gambrel_run", o.gambrel_run, "", {0, 1}, "Share of a gambrel roof's run that is its steep part.")
-      .advanced("chosen by hand so that roofs look drawn; not measured");
-  list.number("gambrel_rise", o.gambrel_rise, "", {0, 1}, "Share of a gambrel roof's height that is its steep part.")
-      .advanced("chosen by hand so that roofs look drawn; not measured");
-  list.number("mansard_rise", o.mansard_rise, "", {0, 1}, "Share of a mansard roof's height that is its steep part.")
-      .advanced("chosen by hand so that roofs look drawn; not measured");
-  list.number("mansard_run", o.mansard_run, "", {0, 1}, "Maximum share of a mansard roof's run that is its steep part.")
-      .advanced("chosen by hand so that roofs look drawn; not measured");
-  list.number("mansard_slope", o.mansard_slope, "", {0.1, 100}, "Slope of the steep part of a mansard roof.")
-      .advanced("chosen by hand so that roofs look drawn; not measured");
-  list.number("level_cosine", o.level_cosine, "", {0, 1},
-              "Cosine of the maximum angle between a side that is level in a skillion roof and the direction across "
-              "its slope.")
-      .advanced("chosen by hand; not measured");
-  list.number("direction_cosine", o.direction_cosine, "", {0, 1},
-              "Cosine of the maximum angle between roof:direction and the edge that it is taken for.")
       .advanced("chosen by hand; not measured");
   list.number("corner_cut", o.corner_cut, "m", {0.001, 5},
               "Width of the cut at a skillion roof's lowest corner, which makes an edge for the plane to start from.")
       .advanced("wider than extrude's tolerances; not measured");
-  list.number("corner_cut_share", o.corner_cut_share, "", {0.01, 0.5},
-              "Maximum share of the sides beside a skillion roof's lowest corner that is cut off.")
-      .advanced("chosen by hand; not measured");
   list.number("apex_distance", o.apex_distance, "m", {0.001, 20},
               "Minimum distance between a pyramid's apex and the sides of its outline.")
       .advanced("chosen by hand; not measured");

@@ -70,9 +70,6 @@ auto option_list(Options& o) -> base::OptionList {
       .source("chosen by hand; the segmentations measured in docs/segment.md need far fewer");
   list.flag("cliques", o.cliques, "Give the solver a row for every clique of conflicts as well.")
       .source("docs/segment.md");
-  list.number("thin_run_turn", o.thin_run_turn, "", {0, 1},
-              "Tangent of the maximum turn between edges that count as one when slivers and needles are looked for.")
-      .advanced("reference implementation chordatlas: 0.05 rad; not measured");
   list.number("thin_shortest", o.thin_shortest, "m", {0, 50},
               "Minimum length of an edge that can make a sliver or a needle.")
       .advanced("chosen by hand; not measured");
@@ -81,27 +78,15 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("samples_per_area", o.samples_per_area, "1/m²", {0.01, 1000},
               "Height samples per area of a face, up to segment.samples.")
       .advanced("as dense as the reference implementation's 2 m grid is sparse: eight times as many; not measured");
-  list.integer("minimum_samples", o.minimum_samples, "", {1, 10000}, "Minimum number of height samples per face.")
-      .advanced("chosen by hand; not measured");
-  list.number("surely_inside", o.surely_inside, "", {0, 1},
-              "Share of a face within the footprints above which the face is inside even without mesh, and is not "
-              "peeled off.")
-      .advanced("chosen by hand; not measured");
   list.number("gis_near", o.gis_near, "m", {0.001, 10},
               "Maximum distance between an edge of a footprint and a neighbour's edge or a wall that runs along it.")
       .advanced("docs/decisions/0015; not measured");
   list.number("gis_shortest", o.gis_shortest, "m", {0.001, 50},
               "Minimum length of a piece of a footprint's edge that is inserted, and of a gap between two pieces.")
       .advanced("docs/decisions/0015");
-  list.number("gis_parallel_sine", o.gis_parallel_sine, "", {0, 1},
-              "Sine of the maximum angle between an edge of a footprint and a line that runs along it.")
-      .advanced("chosen by hand; not measured");
   list.number("smallest_part", o.smallest_part, "m²", {0, 1000},
               "Parts with less area than this are joined to a neighbour or left out.")
       .advanced("chosen by hand; not measured");
-  list.number("low_share", o.low_share, "", {0, 1},
-              "Narrow parts of at least this share of their neighbour's height are part of its roof.")
-      .advanced("docs/decisions/0013");
   list.number("strip_level", o.strip_level, "m", {0, 100},
               "Lower narrow parts are buildings of their own where enough heights are within this of each other.")
       .advanced("docs/decisions/0034");

@@ -45,18 +45,8 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("line_node_spacing", o.line_node_spacing, "m", {0.02, 10},
               "Spacing of the points at which a chain of segments may be cut into straight pieces.")
       .advanced("chosen by hand; not measured");
-  list.integer("line_trim_nodes", o.line_trim_nodes, "", {1, 1000},
-               "Pieces of at least this number of node spacings are fitted without their first and last spacing, which "
-               "may reach around a corner.")
-      .advanced("chosen by hand; not measured");
   list.number("line_piece_price", o.line_piece_price, "m", {0, 1000},
               "Length of chain at sweep.line_distance from its line that an additional straight piece must save.")
-      .advanced("chosen by hand; not measured");
-  list.number("line_straightness", o.line_straightness, "", {0, 1},
-              "Minimum ratio of a piece's chord to its length along the chain; pieces that wind more are vegetation.")
-      .advanced("chosen by hand; not measured");
-  list.number("line_merge_cosine", o.line_merge_cosine, "", {0, 1},
-              "Cosine of the maximum angle between two pieces that may be joined to one line.")
       .advanced("chosen by hand; not measured");
   list.number("line_minimum_length", o.line_minimum_length, "m", {0, 50}, "Minimum length of a line in a slice.")
       .advanced("chosen by hand; not measured");
@@ -67,35 +57,15 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("gis_minimum_edge", o.gis_minimum_edge, "m", {0, 50},
               "Minimum length of a footprint's edge that lines turn to.")
       .advanced("chosen by hand; not measured");
-  list.number("gis_square_score", o.gis_square_score, "", {0, 1},
-              "Score of an edge at right angles to a line, as a share of the score of a parallel edge.")
-      .advanced("reference implementation chordatlas: 0.2, with its sign corrected");
   list.number("gis_maximum_swing", o.gis_maximum_swing, "m", {0, 100},
               "Maximum movement of a line's ends when the line turns to a footprint's edge.")
       .advanced("chosen by hand; not measured");
   list.number("thin_turn", o.thin_turn, "rad", {1.6, 3.1},
               "Minimum angle between the directions of two lines that are opposite sides of a thin object.")
       .advanced("reference implementation chordatlas: 0.7 π");
-  list.number(
-          "low_weight", o.low_weight, "", {0, 1},
-          "Weight of lines below sweep.low_height, and of sides that are mostly below it and away from the footprints.")
-      .advanced("reference implementation chordatlas: 0.1");
-  list.integer("cluster_reach", o.cluster_reach, "", {1, 50},
-               "Number of slices up and down within which a cluster of lines continues.")
-      .advanced("reference implementation chordatlas: 2");
-  list.integer("cluster_lines", o.cluster_lines, "", {1, 1000}, "Minimum number of lines in a cluster.")
-      .advanced(
-          "a metre of height at 0.2 m, with one slice missed; the reference implementation asks for 6 lines at 0.5 m");
-  list.number("cluster_overlap", o.cluster_overlap, "", {0, 1},
-              "Minimum share of a line beside its cluster's first line when it is turned by up to sweep.cluster_turn.")
-      .advanced("reference implementation chordatlas: 0.8");
   list.number("cluster_turn", o.cluster_turn, "rad", {0, 1.5},
               "Maximum angle between a line and its cluster's first line.")
       .advanced("reference implementation chordatlas: 0.3 rad");
-  list.number("cluster_overlap_parallel", o.cluster_overlap_parallel, "", {0, 1},
-              "Minimum share of a line beside its cluster's first line when it is turned by up to "
-              "sweep.cluster_turn_parallel.")
-      .advanced("reference implementation chordatlas: 0.5");
   list.number("cluster_turn_parallel", o.cluster_turn_parallel, "rad", {0, 1.5},
               "Maximum angle between a line and its cluster's first line when they overlap little.")
       .advanced("reference implementation chordatlas: 0.1 rad");
@@ -105,30 +75,15 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("column_gap", o.column_gap, "m", {0, 100},
               "Gaps without wall feet longer than this divide a sweep-edge in two.")
       .advanced("chosen by hand; not measured");
-  list.number("column_support", o.column_support, "", {0, 1},
-              "Columns with less than this share of the median column's lines are left out, as the ragged end of a "
-              "sweep-edge.")
-      .advanced("chosen by hand; not measured");
   list.number("wall_minimum_height", o.wall_minimum_height, "m", {0, 50},
               "Minimum height of a wall in a column; less is a step in a roof.")
       .advanced("reference implementation chordatlas: 1 m of vertical profile");
-  list.number("wall_slope", o.wall_slope, "", {0, 10}, "Maximum lateral movement of a wall per metre of height.")
-      .advanced("reference implementation chordatlas: 0.5 rad from the vertical, here as a tangent");
   list.number("wall_window", o.wall_window, "m", {0, 20}, "Height over which the slope of a wall is fitted.")
       .advanced("chosen by hand; not measured");
   list.number("wall_gap", o.wall_gap, "m", {0, 20}, "Height without samples over which a wall continues.")
       .advanced("three slices of 0.2 m and a margin for rounding");
-  list.number("wall_gap_slices", o.wall_gap_slices, "", {0, 100},
-              "Number of slice intervals without samples over which a wall continues.")
-      .advanced("three slices, and a margin for rounding");
   list.number("wall_spread", o.wall_spread, "m", {0, 20},
               "Maximum distance of a wall's samples from the wall's mean position.")
-      .advanced("chosen by hand; not measured");
-  list.number("wall_lower_share", o.wall_lower_share, "", {0, 1},
-              "Minimum height of the lowest wall in a column, as a share of the tallest one's.")
-      .advanced("chosen by hand; not measured");
-  list.number("wall_share", o.wall_share, "", {0, 1},
-              "Minimum share of a side's columns with a wall; below it, the side is placed at its gutter.")
       .advanced("chosen by hand; not measured");
   list.number("untidy_height", o.untidy_height, "m", {0, 100},
               "Height above ground up to which cars and hedges hide the foot of a wall.")
@@ -162,13 +117,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("low_margin", o.low_margin, "m", {0, 100},
               "Low sides farther outside the footprints than this are hedges or cars.")
       .advanced("chosen by hand; not measured");
-  list.number("low_share", o.low_share, "", {0, 1},
-              "A side is low when more than this share of its area is below sweep.low_height.")
-      .advanced("chosen by hand; not measured");
-  list.number(
-          "thin_share", o.thin_share, "", {0, 1},
-          "Sides that keep less than this share of their length next to opposite lines count with that share alone.")
-      .advanced("chosen by hand; not measured");
   list.number("maximum_scatter", o.maximum_scatter, "m", {0, 20},
               "Sides whose wall feet scatter by more than this around their line are foliage.")
       .advanced("chosen by hand; not measured");
@@ -178,20 +126,9 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("roof_look_sideways", o.roof_look_sideways, "m", {0, 50},
               "Lateral distance within which the continuation of a side without walls is looked for.")
       .advanced("chosen by hand; not measured");
-  list.number("roof_cosine", o.roof_cosine, "", {0, 1},
-              "Cosine of the maximum angle between a roof and its continuation below.")
-      .advanced("chosen by hand; not measured");
-  list.number("roof_share", o.roof_share, "", {0, 1}, "Minimum share of a roof's line next to its continuation below.")
-      .advanced("chosen by hand; not measured");
   list.number("twin_distance", o.twin_distance, "m", {0, 20},
               "Of two sweep-edges nearer to each other than this, only the larger one is kept.")
       .advanced("chosen by hand; not measured");
-  list.number("twin_share", o.twin_share, "", {0, 1},
-              "Minimum share of a sweep-edge's length beside a larger one for it to be left out.")
-      .advanced("chosen by hand; not measured");
-  list.number("registration_cosine", o.registration_cosine, "", {0, 1},
-              "Cosine of the maximum angle between a wall and the outline's edge it is compared with.")
-      .advanced("docs/decisions/0015");
   list.number("registration_shared", o.registration_shared, "m", {0.01, 100},
               "Minimum length along which a wall and an outline's edge are compared.")
       .advanced("chosen by hand; not measured");
@@ -204,31 +141,9 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("registration_noise", o.registration_noise, "m", {1e-6, 5},
               "Distances below this weigh the same in the fit of the displacement.")
       .advanced("chosen by hand; not measured");
-  list.number("registration_determined", o.registration_determined, "", {0, 1},
-              "Minimum share of the walls' length that must face across every direction for a displacement to be "
-              "determined.")
-      .advanced("chosen by hand; not measured");
-  list.number("registration_stands_out", o.registration_stands_out, "", {0, 100},
-              "A displacement counts when it is this many times the median distance that it leaves.")
-      .advanced("docs/decisions/0015");
-  list.number("registration_significance", o.registration_significance, "", {0, 100},
-              "A displacement also counts when it is this many times its standard error.")
-      .advanced("95 % of a normal distribution in the plane; docs/decisions/0018");
-  list.number("registration_explains", o.registration_explains, "", {0, 1},
-              "Share of the mean distance that a displacement must explain when its standard error decides.")
-      .advanced("docs/decisions/0018");
-  list.number("registration_explains_astray", o.registration_explains_astray, "", {0, 1},
-              "Share of the mean distance that a displacement larger than sweep.gis_offset must explain.")
-      .advanced("docs/decisions/0018");
   list.number("registration_minimum_shift", o.registration_minimum_shift, "m", {0, 20},
               "Displacements of the footprints smaller than this are ignored.")
       .advanced("docs/decisions/0015");
-  list.integer("registration_rounds", o.registration_rounds, "", {1, 10000},
-               "Number of rounds of the reweighted least squares that fit the displacement.")
-      .advanced("far more than the fit takes to converge; not measured");
-  list.number("footprint_cosine", o.footprint_cosine, "", {0, 1},
-              "Cosine of the maximum angle between a wall and the footprint's edge it is moved onto.")
-      .advanced("chosen by hand; not measured");
   list.number("footprint_piece", o.footprint_piece, "m", {0.001, 50},
               "Minimum length of a piece of a wall that is moved onto a footprint's edge.")
       .advanced("chosen by hand; not measured");
@@ -249,22 +164,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("step_cell", o.step_cell, "m", {0.05, 5},
               "Cell size of the grid of heights in which roof steps are looked for.")
       .advanced("the cell of the paper's error measure");
-  list.integer("step_near", o.step_near, "", {1, 20}, "Half width of a roof step's flank, in cells.")
-      .advanced("chosen by hand; not measured");
-  list.integer("step_side", o.step_side, "", {1, 20},
-               "Number of cell distances beside a roof step's flank over which the slope is fitted.")
-      .advanced("chosen by hand; not measured");
-  list.integer("step_alone", o.step_alone, "", {1, 20},
-               "Of two jumps within this number of cells only the higher one is kept.")
-      .advanced("chosen by hand; not measured");
-  list.integer("step_rows", o.step_rows, "", {0, 100}, "Number of rows to both sides over which a jump is averaged.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_minimum_rows", o.step_minimum_rows, "", {1, 1000},
-              "Minimum number of rows with known heights in that average.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_own_share", o.step_own_share, "", {0, 1},
-              "Minimum jump of a row, as a share of the mean over the rows around it.")
-      .advanced("chosen by hand; not measured");
   list.number("step_noise", o.step_noise, "m", {0, 20}, "Minimum height of a jump in one row.")
       .advanced("chosen by hand; not measured");
   list.number("step_roughness", o.step_roughness, "m", {0, 20},
@@ -287,16 +186,11 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("step_wide_gap", o.step_wide_gap, "m", {0, 100},
               "Maximum gap in a roof step whose two parts jump in opposite directions.")
       .advanced("chosen by hand; not measured");
-  list.number("step_cover", o.step_cover, "", {0, 1}, "Minimum share of a roof step's length with a jump.")
-      .advanced("chosen by hand; not measured");
   list.number("step_full_jump", o.step_full_jump, "m", {0.01, 50},
               "Height above which a jump counts no more when roof steps are ranked.")
       .advanced("chosen by hand; not measured");
   list.number("step_bend", o.step_bend, "m", {0, 20},
               "Lateral movement between the ends of a roof step from which it may be turned from its direction.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_turn", o.step_turn, "", {0, 1},
-              "Tangent of the maximum angle by which a roof step is turned from its direction.")
       .advanced("chosen by hand; not measured");
   list.number("step_part", o.step_part, "m", {0, 100},
               "Minimum length of a part of a roof step that jumps in one direction.")
@@ -306,9 +200,6 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("step_same_line", o.step_same_line, "m", {0, 20},
               "A roof step within this distance of a wall or a footprint's edge is the same line.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_same_sine", o.step_same_sine, "", {0, 1},
-              "Sine of the maximum angle between a roof step and a line that is the same.")
       .advanced("chosen by hand; not measured");
   return list;
 }

@@ -16,9 +16,6 @@ auto option_list(Options& options) -> base::OptionList {
   list.number("roughness", o.roughness, "m", {0.01, 2},
               "Minimum root mean square distance from the best plane of a square that is no roof.")
       .advanced("measured on simulated crowns of odd seeds: docs/decisions/0062");
-  list.number("local_squareness", o.local_squareness, "", {0, 1},
-              "Maximum agreement of the slopes in a square, on two directions at right angles, of a crown.")
-      .advanced("measured on simulated crowns of odd seeds: docs/decisions/0062");
   list.number("width", o.width, "m", {0.25, 10}, "Minimum width of a crown; narrower ones are edges and chimneys.")
       .advanced("chosen by hand; not measured");
   list.number("even", o.even, "m", {0.005, 1},
@@ -36,14 +33,8 @@ auto option_list(Options& options) -> base::OptionList {
       .advanced("a radius of 8 m");
   list.number("min_inside", o.min_inside, "m²", {0, 100}, "Minimum area of a crown over the footprints.")
       .advanced("chosen by hand; not measured");
-  list.number("squareness", o.squareness, "", {0, 1},
-              "Maximum agreement of all slopes of a crown on two directions at right angles.")
-      .advanced("roof structures have 0.44 and more: docs/decisions/0062");
   list.number("overhang", o.overhang, "", {0, 1}, "Minimum share of a crown below which its underside is visible.")
       .advanced("roof structures have up to 0.05: docs/decisions/0062");
-  list.number("beyond", o.beyond, "", {0, 1},
-              "Minimum share of a crown outside the footprints for it to be that of a tree beside the building.")
-      .advanced("chosen by hand; not measured");
   list.number("rise_beside", o.rise_beside, "m", {0, 50},
               "Minimum height from the lowest to the highest sample of the crown of a tree beside the building.")
       .advanced("balconies have less: docs/decisions/0062");

@@ -288,9 +288,7 @@ auto run_block(const block::Block& block, const Options& options, const base::Ru
   report::BlockReport& report = out.report;
   const Shown shown(block, crowns_over(block, options, run, tell, report, out.warnings));
   const auto& mesh = shown.whole();
-  report.accuracy = stage("accuracy", tell, report, [&] {
-    return accuracy::measure(shown.block().mesh, shown.mesh(), block.outline, options.accuracy);
-  });
+  report.accuracy = stage("accuracy", tell, report, [&] { return accuracy_of(block, shown, options); });
   report::SegmentedBlock segmented =
       segment_block(shown.block(), shown.mesh(), options, run, tell, report, out.warnings);
 

@@ -74,6 +74,7 @@ void add_eaves(const PartResult::EavesSeen& eaves, model::Attributes& attributes
 [[nodiscard]] auto union_unknown(const std::string& subject) -> base::Diagnostic;
 
 /// From slices to the segmentation. Never fails: what goes wrong is in `failure`, among the warnings and in the report.
+/// `report` has the accuracy of the scan.
 [[nodiscard]] auto segment_block(const block::Block& block, const rays::Scene& mesh, const Options& options,
                                  const base::Run& run, const Tell& tell, report::BlockReport& report,
                                  std::vector<base::Diagnostic>& warnings) -> report::SegmentedBlock;

@@ -38,6 +38,12 @@ class Shown {
   std::optional<rays::Scene> whole_;
 };
 
+/// Of the scan over the block, without the crowns of trees.
+[[nodiscard]] inline auto accuracy_of(const block::Block& block, const Shown& shown, const Options& options)
+    -> model::Accuracy {
+  return accuracy::measure(shown.block().mesh, shown.mesh(), block.outline, options.accuracy);
+}
+
 /// Finds the crowns over the block, and says so among the warnings.
 [[nodiscard]] inline auto crowns_over(const block::Block& block, const Options& options, const base::Run& run,
                                       const Tell& tell, report::BlockReport& report,
