@@ -82,7 +82,7 @@ auto option_list(Options& o) -> base::OptionList {
       .number("margin", scan.margin, "m", {1, 100}, "Ground around the buildings.")
       .flag("height_field", scan.height_field, "2.5-D: one height per place, as laser scans from above give.")
       .flag("exact", scan.exact,
-            "The scan has the faces of the buildings themselves, where no noise, losses or objects are asked for.")
+            "The scan has the faces of the buildings themselves, unless noise, losses or objects are set.")
       .number("points_noise", scan.points_noise, "m", {0, 5},
               "Standard deviation of the height of each point of --points, independent of the others.")
       .number("points_noise_plan", scan.points_noise_plan, "m", {0, 5},

@@ -5,9 +5,9 @@
 
 namespace mansard::simulate::detail {
 
-/// The triangles of the surface without what is covered by a face that looks the other way within 1 cm, as between
-/// houses that stand wall to wall; and the ground of `area` without the bases of the buildings, in squares of 2 m, at
-/// the height of each base along its outline. Fails with "geometry-boolean", "geometry-triangulate", "cancelled".
+/// The triangles of the surface without what is covered by a face that is directed the other way within 1 cm, as
+/// between houses that stand wall to wall; and the ground of `area` without the bases of the buildings, in squares of 2
+/// m, at the height of each base along its outline. Fails with "geometry-boolean", "geometry-triangulate", "cancelled".
 [[nodiscard]] auto exact_scan(const Surface& surface, const Terrain& terrain, const geometry::Box2& area,
                               const base::Run& run) -> base::Result<Scan>;
 
