@@ -10,6 +10,8 @@
 #   properties  the guarantees of docs/extrude.md over RUNS (100000) random plans from SEED (the date), where a test run takes
 #               5,000. Every failing plan is reduced and written to tests/extrude/fixtures, which every test run replays
 #   kills       runs killed at KILLS (1000) random moments, where a test run has 50: results have the bytes of an undisturbed run
+#   fixed_point models of data and of simulated blocks, scanned perfectly and reconstructed again, have the same planes and
+#               volume: tools/fixed_point.py. Models and lists of the buildings that differ: build/nightly/fixed_point
 #   clean       `make demo` and `make test` in a new Debian 12: tools/clean_debian.sh, as root. CLEAN has its options, for
 #               example CLEAN="--ccache /var/cache/ccache"
 # The tests in browsers (ctest's label `browser`) test the page, which is the same whatever compiled the program. They run in the
@@ -22,7 +24,7 @@
 set -euo pipefail
 {  # bash reads all of it before it begins: the checkout may change meanwhile
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-all=(debug asan clang firefox headers tidy fuzz properties kills clean)
+all=(debug asan clang firefox headers tidy fuzz properties kills fixed_point clean)
 declare -A meaning=(
   [debug]="not optimised, standard library's assertions: all tests but those in browsers"
   [asan]="address and undefined behaviour sanitizers: all tests but those in browsers"
@@ -33,6 +35,7 @@ declare -A meaning=(
   [fuzz]="each fuzzer for ${FUZZ_SECONDS:=600} s"
   [properties]="extrusion kernel: ${RUNS:=100000} random plans"
   [kills]="runs killed at ${KILLS:=1000} random moments"
+  [fixed_point]="models scanned perfectly and reconstructed again have the same planes and volume: one result an input"
   [clean]="\`make demo\` and \`make test\` in a new Debian 12")
 lanes=("$@")
 [[ $# -gt 0 ]] || lanes=("${all[@]}")
@@ -112,6 +115,12 @@ run_kills() {
     cmake --build --preset release --target test_cli -j "$jobs" &&
     MANSARD_KILLS=$KILLS build/release/bin/test_cli --gtest_filter='Resume*.*kills*'
 }
+run_fixed_point() {
+  tools/setup.sh build && cmake --preset release --log-level=WARNING &&
+    cmake --build --preset release --target mansard -j "$jobs" &&
+    tools/fixed_point.py build/release/bin/mansard "$logs/fixed_point" data/hall data/delft data/b9 \
+      {terrace,perimeter,courtyard,towers,detached}:{1,3,5}
+}
 # shellcheck disable=SC2086  # CLEAN is several words
 run_clean() { tools/clean_debian.sh ${CLEAN:-}; }
 
@@ -121,8 +130,8 @@ results_of() {  # lane
     function add(name) { if (!(name in seen)) names = names (names == "" ? "" : ",") name; seen[name] = 1 }
     lane == "fuzz" && /^fuzz: [a-z_]+: passed$/ { ++passed }
     lane == "fuzz" && /^fuzz: [a-z_]+: failed$/ { ++failed; sub(":", "", $2); add($2) }
-    lane ~ /^(headers|tidy)$/ && /^(check_headers|tidy): [^ ]+: passed$/ { ++passed }
-    lane ~ /^(headers|tidy)$/ && /^(check_headers|tidy): [^ ]+: failed$/ { ++failed; sub(":", "", $2); add($2) }
+    lane ~ /^(headers|tidy|fixed_point)$/ && /^(check_headers|tidy|fixed_point): [^ ]+: passed$/ { ++passed }
+    lane ~ /^(headers|tidy|fixed_point)$/ && /^(check_headers|tidy|fixed_point): [^ ]+: failed$/ { ++failed; sub(":", "", $2); add($2) }
     lane ~ /^(properties|kills)$/ && /^\[  PASSED  \] [0-9]+ test/ { passed += $4 }
     lane ~ /^(properties|kills)$/ && /^\[  FAILED  \] [0-9]+ test/ { failed += $4; next }
     lane ~ /^(properties|kills)$/ && /^\[  FAILED  \] / { sub(",", "", $4); add($4) }

@@ -102,7 +102,7 @@ models houses-tiles reconstruct "$synthetic/tiles/tileset.json" "$synthetic/hous
 # ---- simulate, and what is made of it ----
 models terrace-scan     simulate --block terrace --seed 7 --preset oblique-aerial --simulate-size 24 --picture -o @
 models detached-scan    simulate --block detached --seed 5 --preset lidar-2.5d --simulate-size 30 -o @
-models courtyard-scan   simulate --block courtyard --seed 3 --preset clean --resolution 0.6 --simulate-size 30 -o @
+models courtyard-scan   simulate --block courtyard --seed 3 --preset clean --simulate-exact false --resolution 0.6 --simulate-size 30 -o @
 models footprints-scan  simulate --footprints "${hall[1]}" --seed 2 --resolution 1 -o @
 models plans-scan       simulate out/terrace-scan/plans.json --preset nadir-drone --resolution 0.5 -o @
 models model-scan       simulate data/sim_rotterdam/block_A_truth.obj --preset lidar-2.5d --resolution 1.5 -o @

@@ -172,18 +172,24 @@ auto write_all(const SimulateRequest& request, const simulate::Options& options,
   if (!footprints) return footprints.failure();
 
   progress.show("write", request.out, 1);
+  simulate::Planted planted{scan->planted, {}};
+  std::optional<std::string> points;
+  if (request.points > 0) {
+    const auto drawn = simulate::airborne_points(
+        *scan, {request.points, options.scan.points_noise, options.scan.points_noise_plan}, run.seed);
+    planted.points = drawn.planted;
+    auto bytes = formats::las(drawn.points, truth.city.frame);
+    if (!bytes) return bytes.failure();
+    points = std::move(*bytes);
+  }
   std::vector<std::pair<std::string, std::string>> files{
       {"mesh.ply", simulate::ply(*scan, truth.city.frame)},
       {"footprints.geojson", simulate::geojson(*footprints, truth.city.frame)},
       {"truth.geojson", simulate::geojson(simulate::true_footprints(truth), truth.city.frame)},
-      {"truth.json", simulate::truth_json(truth, *footprints, options, source_of(request), scan->crowns)}};
+      {"truth.json", simulate::truth_json(truth, *footprints, options, source_of(request), scan->crowns, planted)}};
   if (auto added = truth.model ? add_copy(request, known, files) : add_models(truth.city, files, progress); !added)
     return added;
-  if (request.points > 0) {
-    auto points = formats::las(simulate::airborne_points(*scan, request.points, run.seed), truth.city.frame);
-    if (!points) return points.failure();
-    files.emplace_back("points.las", std::move(*points));
-  }
+  if (points) files.emplace_back("points.las", std::move(*points));
   if (request.picture) {
     auto picture = picture_of(*scan, run);
     if (!picture) return picture.failure();

@@ -102,6 +102,22 @@ auto model_json(const ModelSource& model) -> Json {
   return out;
 }
 
+auto accuracy_json(const Accuracy& accuracy) -> Json {
+  return {{"noise_m", accuracy.noise},
+          {"correlated_area_m2", accuracy.correlated_area},
+          {"spacing_m", accuracy.spacing},
+          {"blur_m", accuracy.blur}};
+}
+
+auto planted_json(const Planted& planted, const Options& options) -> Json {
+  Json out = accuracy_json(planted.mesh);
+  const auto offset = offset_of(options.survey, static_cast<std::uint64_t>(options.seed));
+  out["offset_m"] = {offset.x, offset.y};
+  out["offset_spread_m"] = offset_spread(options.survey);
+  if (planted.points) out["points"] = accuracy_json(*planted.points);
+  return out;
+}
+
 auto height(const std::optional<double>& z, double z0) -> Json { return z ? Json(z0 + *z) : Json(nullptr); }
 
 }  // namespace
@@ -186,7 +202,8 @@ auto true_footprints(const Truth& truth) -> std::vector<model::Footprint> {
 }
 
 auto truth_json(const Truth& truth, const std::vector<model::Footprint>& footprints, const Options& options,
-                const std::string& source, const std::vector<Crown>& crowns) -> std::string {
+                const std::string& source, const std::vector<Crown>& crowns, const std::optional<Planted>& planted)
+    -> std::string {
   const auto& frame = truth.city.frame;
   const auto z0 = static_cast<double>(frame.origin[2]);
   Json used = Json::object();
@@ -212,6 +229,7 @@ auto truth_json(const Truth& truth, const std::vector<model::Footprint>& footpri
   out["seed"] = options.seed;
   out["crs"] = frame.crs;
   out["options"] = std::move(used);
+  if (planted) out["planted"] = planted_json(*planted, options);
   out["buildings"] = std::move(buildings);
   out["party_walls"] = std::move(walls);
   out["footprints"] = std::move(features);

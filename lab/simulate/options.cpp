@@ -46,6 +46,8 @@ auto option_list(Options& o) -> base::OptionList {
               "Share of houses without annex that have a rear extension, 0.8 to 2.4 m deep.")
       .number("overhang", block.overhang, "m", {0, 2}, "How far the eaves of pitched roofs overhang.");
   list.number("displacement", survey.displacement, "m", {0, 20}, "All outlines are moved by this in one direction.")
+      .number("direction", survey.direction, "rad", {-7, 7},
+              "Direction of that displacement, from the x axis; drawn where it is not given.")
       .number("jitter", survey.jitter, "m", {0, 5}, "Every corner of an outline is moved by up to this.")
       .number("generalise", survey.generalise, "m", {0, 5}, "Corners of outlines flatter than this are left out.")
       .number("eaves", survey.eaves, "m", {0, 3}, "Outlines are drawn so much larger, but for party walls.")
@@ -54,7 +56,11 @@ auto option_list(Options& o) -> base::OptionList {
       .alias("resolution")
       .number("melt", scan.melt, "m", {0, 3}, "Standard deviation of the smoothing that rounds corners and edges.")
       .number("noise", scan.noise, "m", {0, 2}, "Root mean square of the noise along the normal.")
-      .number("noise_length", scan.noise_length, "m", {0.1, 100}, "Wavelength of the noise.")
+      .number("noise_length", scan.noise_length, "m", {0, 100},
+              "Wavelength of the noise; 0 is noise that is independent from vertex to vertex.")
+      .number(
+          "noise_hidden", scan.noise_hidden, "", {0, 10},
+          "How much stronger noise and bulge are where no camera sees: 1 doubles them, 0 makes them equal everywhere.")
       .number("bulge", scan.bulge, "m", {0, 2}, "Root mean square of a longer wave of walls.")
       .number("bulge_length", scan.bulge_length, "m", {0.1, 100}, "Wavelength of that.")
       .number("holes", scan.holes, "", {0, 1}, "Share of the walls' area lost where few cameras see.")
@@ -74,15 +80,22 @@ auto option_list(Options& o) -> base::OptionList {
       .number("seam", scan.seam, "m", {0, 5}, "Largest step, in each direction, between tiles of the mesh.")
       .number("tile", scan.tile, "m", {5, 10000}, "Side of a tile.")
       .number("margin", scan.margin, "m", {1, 100}, "Ground around the buildings.")
-      .flag("height_field", scan.height_field, "2.5-D: one height per place, as laser scans from above give.");
+      .flag("height_field", scan.height_field, "2.5-D: one height per place, as laser scans from above give.")
+      .flag("exact", scan.exact,
+            "The scan has the faces of the buildings themselves, unless noise, losses or objects are set.")
+      .number("points_noise", scan.points_noise, "m", {0, 5},
+              "Standard deviation of the height of each point of --points, independent of the others.")
+      .number("points_noise_plan", scan.points_noise_plan, "m", {0, 5},
+              "Standard deviation of the x and the y of each point of --points, independent of the others.");
   return list;
 }
 
 auto presets() -> const std::vector<Preset>& {
   static const std::vector<Preset> all{
       {"clean",
-       "no noise, no losses, nothing but buildings and level ground: what the truth itself would look like",
-       {{"simulate.melt", "0"},
+       "a perfect scan: the faces of the buildings themselves, with level ground around and nothing else",
+       {{"simulate.exact", "true"},
+        {"simulate.melt", "0"},
         {"simulate.noise", "0"},
         {"simulate.bulge", "0"},
         {"simulate.holes", "0"},

@@ -1,8 +1,10 @@
 // The steps of a scan: what stands there, its surface, what each piece of it shows, and what becomes of it.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "lab/simulate/detail/damage.hpp"
+#include "lab/simulate/detail/exact.hpp"
 #include "lab/simulate/detail/height_field.hpp"
 #include "lab/simulate/detail/raising.hpp"
 #include "lab/simulate/detail/surface_net.hpp"
@@ -23,7 +25,10 @@ auto seed_for(std::uint64_t seed, Purpose purpose) -> std::uint64_t { return bas
 constexpr double most_columns = 1 << 27, most_along = 1 << 20, most_levels = 1 << 19;
 
 /// Columns of the grid and its levels, held against what can be numbered and kept. Fails with "simulate-size".
-auto check_size(const Surface& surface, const geometry::Box2& area, double resolution) -> base::Result<void> {
+auto check_size(const Surface& surface, const geometry::Box2& area, const ScanOptions& options) -> base::Result<void> {
+  constexpr double ground_square = 2;  // m; all that a scan has a grid of that has the faces themselves
+  const bool faces = keeps_faces(options);
+  const double resolution = faces ? ground_square : options.resolution;
   double high = 0;
   for (const auto v : surface.mesh.vertices) high = std::max(high, std::abs(v.z));
   const auto size = area.most - area.least;
@@ -33,14 +38,14 @@ auto check_size(const Surface& surface, const geometry::Box2& area, double resol
   const double coarser =
       std::max({std::sqrt(size.x * size.y / most_columns), std::max(size.x, size.y) / most_along, high / most_levels});
   constexpr double tenth = 10;  // the advice is rounded up to 0.1 m
-  return base::error("simulate-size",
-                     "the scan would have too many cells: " + base::to_text(size.x, 0) + " × " +
-                         base::to_text(size.y, 0) + " m are " + base::to_text(columns / 1e6, 0) +
-                         " million columns at " + base::to_text(resolution) + " m, and " +
-                         base::to_text(most_columns / 1e6, 0) +
-                         " million are the most; keep a part of it with --bbox, or take a resolution of " +
-                         base::to_text(std::floor(coarser * tenth + 1) / tenth, 1) + " m",
-                     "simulate.resolution");
+  return base::error(
+      "simulate-size",
+      "the scan would have too many cells: " + base::to_text(size.x, 0) + " × " + base::to_text(size.y, 0) + " m are " +
+          base::to_text(columns / 1e6, 0) + " million columns at " + base::to_text(resolution) + " m, and " +
+          base::to_text(most_columns / 1e6, 0) + " million are the most; keep a part of it with --bbox" +
+          (faces ? ""
+                 : ", or take a resolution of " + base::to_text(std::floor(coarser * tenth + 1) / tenth, 1) + " m"),
+      "simulate.resolution");
 }
 
 auto class_of(model::FaceClass kind) -> Class {
@@ -54,7 +59,36 @@ auto class_of(model::FaceClass kind) -> Class {
   return Class::other;
 }
 
+/// Of noises that are added, the variances and the integrals of their autocovariance add up.
+auto accuracy_of(const detail::Roughness& rough, const ScanOptions& options) -> Accuracy {
+  Accuracy out{rough.both, 0, options.resolution, options.height_field ? 0 : options.melt};
+  const double noise = rough.noise * rough.noise, bulge = rough.bulge * rough.bulge;
+  if (noise + bulge > 0)
+    out.correlated_area = (noise * correlated_area(options.noise_length, options.resolution) +
+                           bulge * correlated_area(options.bulge_length, options.resolution)) /
+                          (noise + bulge);
+  return out;
+}
+
 }  // namespace
+
+auto keeps_faces(const ScanOptions& options) -> bool {
+  const auto unwanted = {options.melt,          options.noise,  options.bulge,     options.holes,
+                         options.missing_walls, options.seam,   options.trees,     options.cars,
+                         options.chimneys,      options.crowns, options.roof_trees};
+  return options.exact && !options.height_field && std::ranges::all_of(unwanted, [](double x) { return x <= 0; });
+}
+
+auto correlated_area(double noise_length, double spacing) -> double {
+  if (noise_length <= 0) return spacing * spacing;
+  constexpr double fine = 32;  // steps a wavelength, from which the sum is the integral to six digits
+  const double step = std::max(spacing, noise_length / fine);
+  const auto reach = static_cast<int>(std::ceil(std::numbers::sqrt3 * noise_length / step));  // no correlation beyond
+  double sum = 0;
+  for (int i = -reach; i <= reach; ++i)
+    for (int j = -reach; j <= reach; ++j) sum += detail::correlation(noise_length, {i * step, j * step, 0});
+  return sum * step * step;
+}
 
 auto surface_of(const model::City& city) -> base::Result<Surface> {
   Surface out;
@@ -89,11 +123,12 @@ auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed
     return base::error("simulate-nothing", "there is no building to be scanned; give a model with solids");
   const auto area = geometry::Box2::of(surface.mesh.vertices).grown(options.margin);
 
-  if (auto fits = check_size(surface, area, options.resolution); !fits) return fits.error();
+  if (auto fits = check_size(surface, area, options); !fits) return fits.error();
 
   run.report("simulate", "surroundings", 0);
-  const detail::Nearest nearest(surface);
   const detail::Terrain terrain(surface, area, options, seed_for(seed, ground));
+  if (keeps_faces(options)) return detail::exact_scan(surface, terrain, area, run);
+  const detail::Nearest nearest(surface);
   auto around = detail::surroundings_of(surface, nearest, terrain, area, options, seed_for(seed, things));
   const detail::World world{surface, terrain, around.objects, area};
 
@@ -114,9 +149,10 @@ auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed
                                          : detail::visibility(*mesh, normals, options.camera_tilt, run);
   if (run.cancelled()) return base::stopped();
   auto lost = detail::losses(*mesh, labels, seen, world, options, seed_for(seed, damage));
-  detail::roughen(*mesh, normals, seen, options, seed_for(seed, roughness));
+  const auto rough = detail::roughen(*mesh, normals, seen, labels, options, seed_for(seed, roughness));
   auto out = detail::torn(*mesh, labels, std::move(lost), surface, options, seed_for(seed, tiles));
   out.crowns = std::move(around.crowns);
+  out.planted = accuracy_of(rough, options);
   run.report("simulate", {}, 1);
   return out;
 }

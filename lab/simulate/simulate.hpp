@@ -47,37 +47,46 @@ struct BlockOptions {
 
 /// How a surveyor draws the outlines. Metres.
 struct SurveyOptions {
-  double displacement = 0.2;  ///< all outlines moved by this, in a direction that is drawn
-  double jitter = 0.05;       ///< every corner moved by up to this; corners in one place move together
-  double generalise = 0.1;    ///< corners less than this off the line of their neighbours are left out
-  double eaves = 0;           ///< outlines drawn so much larger, but for party walls
-  double merged = 0.1;        ///< share of party walls across which two houses are one feature
+  double displacement = 0.2;          ///< all outlines moved by this
+  double jitter = 0.05;               ///< every corner moved by up to this; corners in one place move together
+  double generalise = 0.1;            ///< corners less than this off the line of their neighbours are left out
+  double eaves = 0;                   ///< outlines drawn so much larger, but for party walls
+  double merged = 0.1;                ///< share of party walls across which two houses are one feature
+  std::optional<double> direction{};  ///< rad; of the displacement, from x; none: drawn
 };
 
 /// How the scan sees the block. Lengths in metres.
 struct ScanOptions {
-  double resolution = 0.3;      ///< edge length of the mesh
-  double melt = 0.25;           ///< standard deviation of the smoothing that melts corners and edges
-  double noise = 0.04;          ///< root mean square along the normal
-  double noise_length = 1.5;    ///< wavelength of that noise
-  double bulge = 0.04;          ///< root mean square of a longer wave of walls
-  double bulge_length = 6;      ///< its wavelength
-  double holes = 0.04;          ///< share of the walls' area lost where few cameras see
-  double camera_tilt = 0.8;     ///< rad; of the cameras from straight down
-  double missing_walls = 0.05;  ///< probability that a wall was not matched
-  double missing_share = 0.5;   ///< how much of its height such a wall lacks, from below
-  double trees = 8;             ///< per 1000 m² of open ground
-  double cars = 6;              ///< per 1000 m² of open ground
-  double chimneys = 0.5;        ///< probability per building
-  double crowns = 0;            ///< probability per building of a tree whose crown is over its roof
-  double roof_trees = 0;        ///< probability per building of a tree within its outline
-  double ground_waves = 0.06;   ///< root mean square of the ground's bumps
-  double ground_length = 12;    ///< their wavelength
-  double seam = 0.03;           ///< largest step, in each direction, between the tiles of the mesh
-  double tile = 60;             ///< side of a tile
-  double margin = 12;           ///< ground around the buildings
-  bool height_field = false;    ///< 2.5-D: one height per place; melt does not apply
+  double resolution = 0.3;       ///< edge length of the mesh
+  double melt = 0.25;            ///< standard deviation of the smoothing that melts corners and edges
+  double noise = 0.04;           ///< root mean square along the normal
+  double noise_length = 1.5;     ///< wavelength of that noise; 0: independent from vertex to vertex
+  double noise_hidden = 1;       ///< how much stronger noise and bulge are where no camera sees
+  double bulge = 0.04;           ///< root mean square of a longer wave of walls
+  double bulge_length = 6;       ///< its wavelength
+  double holes = 0.04;           ///< share of the walls' area lost where few cameras see
+  double camera_tilt = 0.8;      ///< rad; of the cameras from straight down
+  double missing_walls = 0.05;   ///< probability that a wall was not matched
+  double missing_share = 0.5;    ///< how much of its height such a wall lacks, from below
+  double trees = 8;              ///< per 1000 m² of open ground
+  double cars = 6;               ///< per 1000 m² of open ground
+  double chimneys = 0.5;         ///< probability per building
+  double crowns = 0;             ///< probability per building of a tree whose crown is over its roof
+  double roof_trees = 0;         ///< probability per building of a tree within its outline
+  double ground_waves = 0.06;    ///< root mean square of the ground's bumps
+  double ground_length = 12;     ///< their wavelength
+  double seam = 0.03;            ///< largest step, in each direction, between the tiles of the mesh
+  double tile = 60;              ///< side of a tile
+  double margin = 12;            ///< ground around the buildings
+  bool height_field = false;     ///< 2.5-D: one height per place; melt does not apply
+  bool exact = false;            ///< the faces themselves, where keeps_faces() holds
+  double points_noise = 0;       ///< standard deviation of the height of each point of airborne_points()
+  double points_noise_plan = 0;  ///< and of its x and its y
 };
+/// Whether a scan consists of the faces of the truth: `exact` is set, and nothing is asked for that needs samples
+/// (melt, noise, bulge, holes, missing walls, seams, trees, cars, chimneys, crowns, a height field). Otherwise the
+/// scan is sampled at `resolution`.
+[[nodiscard]] auto keeps_faces(const ScanOptions& options) -> bool;
 
 struct Options {
   std::int64_t seed = 1;
@@ -144,6 +153,11 @@ struct Truth {
 /// "geometry-boolean", "cancelled".
 [[nodiscard]] auto truth_of(model::City plans, const base::Run& run = {}) -> base::Result<Truth>;
 
+/// Where the scan is, against the outlines of that survey: the displacement the other way, metres.
+[[nodiscard]] auto offset_of(const SurveyOptions& options, std::uint64_t seed) -> geometry::Point2;
+/// m; root mean square of the length by which `jitter` moves a corner: jitter / √3. In one direction 1/√2 of that.
+[[nodiscard]] auto offset_spread(const SurveyOptions& options) -> double;
+
 /// The features that a surveyor would draw: one per building, or per group of merged ones, in the order of the
 /// buildings. Attributes: id, buildings (the ids it represents, blanks between them).
 /// Fails with "geometry-boolean".
@@ -184,20 +198,40 @@ struct Crown {
   bool within = false;         ///< whether its trunk is within the outline
 };
 
+/// The accuracy of a scan on roofs, as planted.
+struct Accuracy {
+  double noise = 0;            ///< m; root mean square along the normal, over the area of the roofs; no seams
+  double correlated_area = 0;  ///< m²; over which the noise counts as one error; 0 without noise
+  double spacing = 0;          ///< m; between vertices or points; 0 for the faces themselves
+  double blur = 0;             ///< m; standard deviation of the Gaussian that smooths edges
+};
+
+/// m²; the area over which the noise of a scan counts as one error: the mean of the noise over a much larger area S has
+/// the variance σ² · A / S. For noise of a wavelength (m) this is the integral of its autocorrelation over a horizontal
+/// plane, A = 0.356 · noise_length²; over planes of other directions 0.350 to 0.359. With a spacing (m) of the samples
+/// it is the sum of the autocorrelation over a grid, times the area of a cell: about spacing² for short waves, and
+/// exactly that for independent noise (noise_length 0).
+[[nodiscard]] auto correlated_area(double noise_length, double spacing = 0) -> double;
+
 struct Scan {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   geometry::Mesh mesh;
   std::vector<Class> classes;            ///< per triangle
   std::vector<std::uint32_t> buildings;  ///< per triangle; none for ground and other
   std::vector<Crown> crowns{};           ///< by building, those beside it first
+  Accuracy planted{};
 };
 
 /// A mesh as photogrammetry or laser scanning would give it of the buildings, the ground they stand on, and the trees,
-/// cars and chimneys that nobody asked for. Walls between buildings are not in it. Guarantees: 1 without melt, noise,
+/// cars and chimneys that nobody asked for. Walls between buildings are not in it. A scan that keeps_faces() has the
+/// faces of the surface, without what another face covers, and triangles of ground around that meet them: what is
+/// inside of overlapping solids stays. Guarantees: 1 without melt, noise,
 /// bulge and losses, every vertex lies within `resolution` of the union of the solids and the ground · 2 the area of
 /// walls lost to holes is the asked share to within one triangle · 3 the same input, options and seed give the same
-/// bytes at any thread count. Fails with "simulate-size" (more than 2²⁷ columns), "simulate-nothing" (no triangles),
-/// "cancelled". Cost: O(volume / resolution³), in pieces of 64 × 64 columns.
+/// bytes at any thread count · 4 the vertices of a scan that keeps_faces() are on the faces of the surface, within
+/// 0.1 mm, or on the ground. Fails with "simulate-size" (more than 2²⁷ columns), "simulate-nothing" (no triangles),
+/// "geometry-boolean", "geometry-triangulate", "cancelled". Cost: O(volume / resolution³), in pieces of 64 × 64
+/// columns.
 [[nodiscard]] auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed,
                         const base::Run& run = {}) -> base::Result<Scan>;
 
@@ -210,11 +244,16 @@ struct Scan {
 [[nodiscard]] auto surface_obj(const Surface& surface, const model::City& city) -> std::string;
 /// What truly stands there, as features: the outline of every building, with id and ground.
 [[nodiscard]] auto true_footprints(const Truth& truth) -> std::vector<model::Footprint>;
-/// What the files beside it do not say: party walls, roofs of the buildings, crowns over them, options and seed.
-/// `source` names the kind of block or the file.
+/// The accuracy of what was made: of the mesh, and of the points where there are any.
+struct Planted {
+  Accuracy mesh;
+  std::optional<Accuracy> points;
+};
+/// What the files beside it do not say: party walls, roofs of the buildings, crowns over them, options, seed, and the
+/// accuracy that was planted. `source` names the kind of block or the file.
 [[nodiscard]] auto truth_json(const Truth& truth, const std::vector<model::Footprint>& footprints,
-                              const Options& options, const std::string& source, const std::vector<Crown>& crowns = {})
-    -> std::string;
+                              const Options& options, const std::string& source, const std::vector<Crown>& crowns = {},
+                              const std::optional<Planted>& planted = {}) -> std::string;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;
 

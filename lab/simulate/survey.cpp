@@ -78,14 +78,17 @@ void generalise(Ring& ring, double tolerance) {
   }
 }
 
+auto displacement_of(const SurveyOptions& options, std::uint64_t seed) -> Point2 {
+  const double angle = options.direction.value_or(2 * std::numbers::pi * detail::drawn(seed, 2));
+  return options.displacement * Point2{geometry::cosine(angle), geometry::sine(angle)};
+}
+
 /// By the place alone, to the centimetre: corners of neighbours that coincide stay together.
 auto moved(Point2 p, const SurveyOptions& options, std::uint64_t seed) -> Point2 {
-  const double angle = 2 * std::numbers::pi * detail::drawn(seed, 2);
   const auto x = std::lround(p.x * 100), y = std::lround(p.y * 100);
   const double way = 2 * std::numbers::pi * detail::drawn(seed, 3, x, y);
   const double far = options.jitter * detail::drawn(seed, 4, x, y);
-  return p + options.displacement * Point2{geometry::cosine(angle), geometry::sine(angle)} +
-         far * Point2{geometry::cosine(way), geometry::sine(way)};
+  return p + displacement_of(options, seed) + far * Point2{geometry::cosine(way), geometry::sine(way)};
 }
 
 /// What remains when outlines are drawn with less care than they were built: mostly one polygon.
@@ -105,6 +108,13 @@ auto drawn_outline(Polygon polygon, const SurveyOptions& options, std::uint64_t 
 }
 
 }  // namespace
+
+auto offset_of(const SurveyOptions& options, std::uint64_t seed) -> Point2 {
+  const auto by = displacement_of(options, seed);
+  return {0 - by.x, 0 - by.y};
+}
+
+auto offset_spread(const SurveyOptions& options) -> double { return options.jitter / std::numbers::sqrt3; }
 
 auto survey(const Truth& truth, const SurveyOptions& options, std::uint64_t seed)
     -> base::Result<std::vector<model::Footprint>> {

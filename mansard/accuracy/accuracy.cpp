@@ -16,8 +16,8 @@ using geometry::Point3;
 
 constexpr std::size_t most_places = 700;
 constexpr double most_samples = 40'000;
-constexpr double finest = 0.5;  // m between places
-constexpr double coarse = 0.6;  // m: a mesh whose vertices are farther apart is sampled
+constexpr double finest = 0.5;    // m between places
+constexpr double coarse = 0.6;    // m: a mesh whose vertices are farther apart is sampled
 constexpr double faces_up = 0.5;  // cosine of 60°: steeper is no roof
 
 /// Three digits: what a logarithm's last bit says is not that of another processor.

@@ -1,7 +1,8 @@
 // Measures how accurate a scan is: its noise and how far that is correlated, its spacing, how much it rounds edges, how
 // much it shows of walls, and where the footprints are beside them.
 // References: docs/accuracy.md has the derivations; P. Welch, The use of fast Fourier transform for the estimation of
-// power spectra (1967) for equivalent degrees of freedom; E. Wilson, M. Hilferty, The distribution of chi-square (1931).
+// power spectra (1967) for equivalent degrees of freedom; E. Wilson, M. Hilferty, The distribution of chi-square
+// (1931).
 #pragma once
 
 #include <optional>
@@ -19,11 +20,11 @@ namespace mansard::accuracy {
 
 /// Each replaces what is measured.
 struct Options {
-  std::optional<double> noise;            ///< m
-  std::optional<double> correlated_area;  ///< m²
-  std::optional<double> spacing;          ///< m
-  std::optional<double> blur;             ///< m
-  std::optional<double> walls;            ///< share
+  std::optional<double> noise;                              ///< m
+  std::optional<double> correlated_area;                    ///< m²
+  std::optional<double> spacing;                            ///< m
+  std::optional<double> blur;                               ///< m
+  std::optional<double> walls;                              ///< share
   std::optional<double> offset_x, offset_y, offset_spread;  ///< m
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
@@ -34,8 +35,7 @@ struct Options {
 /// blur and offset are measured within 20 % (docs/accuracy.md has the table).
 /// Cost: O(vertices + outline's length); places and transects are at most some hundreds.
 [[nodiscard]] auto measure(const geometry::Mesh& mesh, const rays::Scene& scene,
-                           std::span<const geometry::Polygon> outline, const Options& options = {})
-    -> model::Accuracy;
+                           std::span<const geometry::Polygon> outline, const Options& options = {}) -> model::Accuracy;
 
 /// Noise, correlated area and spacing of points of single surfaces, seen from above: laser points of roofs. `places`:
 /// indices of the points around which they are measured.

@@ -11,18 +11,18 @@ namespace mansard::model {
 /// The accuracy of a scan over some ground. The initialisers are what is assumed where nothing could be measured: a
 /// fair photogrammetric mesh (docs/accuracy.md).
 struct Accuracy {
-  double noise = 0.1;            ///< m; standard deviation of the surface along its normal
-  double correlated_area = 10;   ///< m²; the area over which that noise is one error: ∫ of its autocorrelation
-  double spacing = 0.5;          ///< m; nominal spacing of what was sampled
-  double blur = 0.25;            ///< m; standard deviation of the smoothing of edges and steps; 0: sharp
-  double edge_noise = 0.1;       ///< m; standard deviation of where a straight edge is seen along it
-  double walls = 1;              ///< share of the walls' height that the scan shows
-  geometry::Point2 offset;       ///< m; what to add to the footprints to bring them to the scan
-  double offset_error = 0;       ///< m; standard error of each coordinate of it
-  double offset_spread = 0;      ///< m; standard deviation from wall to wall about it
-  std::size_t windows = 0;       ///< what noise was measured in; 0: assumed
-  std::size_t transects = 0;     ///< what blur was measured along; 0: assumed
-  std::size_t edges = 0;         ///< what offset and spread were measured from; 0: not measured
+  double noise = 0.1;           ///< m; standard deviation of the surface along its normal
+  double correlated_area = 10;  ///< m²; the area over which that noise is one error: ∫ of its autocorrelation
+  double spacing = 0.5;         ///< m; nominal spacing of what was sampled
+  double blur = 0.25;           ///< m; standard deviation of the smoothing of edges and steps; 0: sharp
+  double edge_noise = 0.1;      ///< m; standard deviation of where a straight edge is seen along it
+  double walls = 1;             ///< share of the walls' height that the scan shows
+  geometry::Point2 offset;      ///< m; what to add to the footprints to bring them to the scan
+  double offset_error = 0;      ///< m; standard error of each coordinate of it
+  double offset_spread = 0;     ///< m; standard deviation from wall to wall about it
+  std::size_t windows = 0;      ///< what noise was measured in; 0: assumed
+  std::size_t transects = 0;    ///< what blur was measured along; 0: assumed
+  std::size_t edges = 0;        ///< what offset and spread were measured from; 0: not measured
 
   /// m²·m²: what a number that is fitted to noise takes off the sum of squared differences, on average: the sum is over
   /// samples times the area of each, so that the noise of one independent area counts σ² A.

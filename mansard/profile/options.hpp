@@ -29,8 +29,8 @@ struct Options {
   double overhang_support = 0.4;  ///< share of an edge's slices that show the wall and the edge of the roof above it
 
   // Overhanging eaves.
-  double overhang_wall = 0.8;    ///< m of wall below the eaves, at least
-  double overhang_clear = 0.3;   ///< m below the deepest edge of the roof, and above low_height, where no wall is read
+  double overhang_wall = 0.8;   ///< m of wall below the eaves, at least
+  double overhang_clear = 0.3;  ///< m below the deepest edge of the roof, and above low_height, where no wall is read
   /// Minimum share of the height of the wall below the eaves that a slice shows. Chosen by hand; not measured.
   double overhang_shadow = 0.5;
   double overhang_near = 0.5;    ///< m between the plan's edge and the wall, at most
@@ -40,10 +40,11 @@ struct Options {
   double overhang_hidden = 0.5;  ///< m; of the edge of a roof, a sharp wedge, more than that
 
   // Slices.
-  double slice_outward = 2.0;    ///< m outside the edge where a slice begins
-  double slice_inward = 40.0;    ///< m inside the edge where a slice ends at the latest
-  double slice_margin = 0.3;     ///< m; corners are rounded in scans
-  /// Maximum number of slices of an edge. Keeps the time of long edges in bounds; 100 slices were enough for every edge looked at.
+  double slice_outward = 2.0;  ///< m outside the edge where a slice begins
+  double slice_inward = 40.0;  ///< m inside the edge where a slice ends at the latest
+  double slice_margin = 0.3;   ///< m; corners are rounded in scans
+  /// Maximum number of slices of an edge. Keeps the time of long edges in bounds; 100 slices were enough for every edge
+  /// looked at.
   double slices_per_edge = 100;
 
   // The climb.
@@ -54,7 +55,8 @@ struct Options {
   double climb_roof_next = 0.3;   ///< m between that and the next places
   /// Weight of mesh below profile.low_height in the position of a wall. Chosen by hand; not measured.
   double wall_low_weight = 0.2;
-  /// Maximum lean of a piece of wall, as a multiple of the tangent of profile.vertical_angle. Chosen by hand; not measured.
+  /// Maximum lean of a piece of wall, as a multiple of the tangent of profile.vertical_angle. Chosen by hand; not
+  /// measured.
   double wall_lean =
       3.0;  ///< times the tangent of vertical_angle; single noisy triangles lean more than the wall they make
   double wall_minimum = 1.0;  ///< m; less is no wall
@@ -69,25 +71,25 @@ struct Options {
   double rising_slope = 0.1;
   /// Maximum slope of a roof along its edge, as a share of the slope across. Chosen by hand; not measured.
   double rising_oblique = 0.6;
-  double rising_start = 1.6;         ///< m; parapets and gutters may lie before the roof
-  double rising_shortest = 0.8;      ///< m; a rise over less is a rounded corner
+  double rising_start = 1.6;     ///< m; parapets and gutters may lie before the roof
+  double rising_shortest = 0.8;  ///< m; a rise over less is a rounded corner
   /// Number of columns in the plane whose slope is fitted. Chosen by hand; not measured.
   std::size_t rising_tile = 5;
   /// Number of columns between planes whose slopes are fitted. Chosen by hand; not measured.
   std::size_t rising_tile_step = 2;
   /// Number of consecutive planes without rise over which a roof continues. Chosen by hand; not measured.
   std::size_t rising_misses = 2;
-  double rising_beside = 0.5;        ///< m; slices this near help to tell the slope
+  double rising_beside = 0.5;  ///< m; slices this near help to tell the slope
   /// Minimum share of rising slices that must reach a column for it to count. Chosen by hand; not measured.
   double pool_share = 0.25;
 
   // Setbacks.
-  double setback_step = 1.5;      ///< m from the lower roof up
+  double setback_step = 1.5;  ///< m from the lower roof up
   /// Number of columns to either side of a setback's wall that a scan smears. Chosen by hand; not measured.
   std::size_t setback_blur = 2;
   /// Minimum number of columns before a setback's wall. Chosen by hand; not measured.
   std::size_t setback_depth = 4;
-  double setback_level = 1.0;     ///< m between the heights of the part before it
+  double setback_level = 1.0;  ///< m between the heights of the part before it
   /// Slope below which a pitch is level. Chosen by hand; not measured.
   double level_slope = 0.05;
 
@@ -103,8 +105,9 @@ struct Options {
   double hip_corner_from = 2.6;         ///< m; on shorter edges all slices count
   /// Minimum share of an edge's slices that must rise for it to have a pitched roof. Chosen by hand; not measured.
   double pitched_share = 0.4;
-  double short_run = 1.0;               ///< m; shorter runs follow a neighbour or stand as walls
-  /// Tangent of the maximum angle between a short edge and the neighbour whose profile it takes. Chosen by hand; not measured.
+  double short_run = 1.0;  ///< m; shorter runs follow a neighbour or stand as walls
+  /// Tangent of the maximum angle between a short edge and the neighbour whose profile it takes. Chosen by hand; not
+  /// measured.
   double gentle_turn = 0.5463;
 
   // Heights and caps.
@@ -118,8 +121,8 @@ struct Options {
   // Choice between profiles.
   /// Maximum number of height samples per part when profiles are chosen. Chosen by hand; not measured.
   double choice_samples = 3000;
-  double choice_grid = 0.25;     ///< m between samples, at least
-  double choice_outlier = 3.0;   ///< m; larger differences (trees, steps) count as this
+  double choice_grid = 0.25;    ///< m between samples, at least
+  double choice_outlier = 3.0;  ///< m; larger differences (trees, steps) count as this
   /// Share of the error below which another profile replaces the first choice. Chosen by hand; not measured.
   double choice_gain = 0.97;
   /// Maximum number of rounds in which profiles are chosen. Chosen by hand; not measured.

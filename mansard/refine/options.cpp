@@ -32,9 +32,10 @@ void add_objective(OptionList& list, Options& o) {
   list.choice("effort", o.effort, {{"caps", Effort::caps}, {"planes", Effort::planes}, {"parts", Effort::parts}},
               "What may be changed by measured error: the height caps; the profiles too; or the plan as well.")
       .source(decision_14)
-      .number("detail", o.detail, "m", {0.001, 10},
-              "The smallest detail of interest: a step in height of this size over refine.least_area. What the scan shows "
-              "more finely is left out.")
+      .number(
+          "detail", o.detail, "m", {0.001, 10},
+          "The smallest detail of interest: a step in height of this size over refine.least_area. What the scan shows "
+          "more finely is left out.")
       .source("half of the smallest step that LoD 2.2 models of agencies show; docs/accuracy.md")
       .number("significance", o.significance, "", {0.01, 100},
               "How many times the description length of a number, in the measured noise of the scan, the number must "
@@ -91,8 +92,7 @@ void add_refit(OptionList& list, Options::Refit& o) {
       .advanced(by_hand);
 }
 
-void add_search(OptionList& list, Options::Search& o) {
-}
+void add_search(OptionList& list, Options::Search& o) {}
 
 void add_sharpen(OptionList& list, Options::Sharpen& o) {
   list.number(
@@ -239,8 +239,7 @@ void add_regions(OptionList& list, Options::Regions& o) {
       .advanced(by_hand);
 }
 
-void add_rectangles(OptionList& list, Options::Outlines& o) {
-}
+void add_rectangles(OptionList& list, Options::Outlines& o) {}
 
 void add_outlines(OptionList& list, Options::Outlines& o) {
   add_rectangles(list, o);

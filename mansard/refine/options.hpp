@@ -14,15 +14,15 @@ enum class Effort : std::uint8_t {
   parts,   ///< and the plan: parts under one roof are joined, structures of another height become parts of their own
 };
 
-/// The first six are what a user may ask for. The groups are the search's own numbers, by the file of `detail/` that uses them:
-/// advanced options, of which few are measured; `option_list` gives meaning, range and source of each.
+/// The first six are what a user may ask for. The groups are the search's own numbers, by the file of `detail/` that
+/// uses them: advanced options, of which few are measured; `option_list` gives meaning, range and source of each.
 struct Options {
   Effort effort = Effort::parts;
-  double detail = 0.1;         ///< m; the smallest step on `least_area` that is of interest
-  double significance = 1.0;   ///< how many times what noise explains by chance a number must explain
-  double grid = 0.25;          ///< m between samples seen from above
-  double least_area = 4.0;     ///< m²; smaller structures stay with the roof they are on
-  double robust = 3.0;           ///< m; greater differences count linearly, not squared: trees, debris
+  double detail = 0.1;        ///< m; the smallest step on `least_area` that is of interest
+  double significance = 1.0;  ///< how many times what noise explains by chance a number must explain
+  double grid = 0.25;         ///< m between samples seen from above
+  double least_area = 4.0;    ///< m²; smaller structures stay with the roof they are on
+  double robust = 3.0;        ///< m; greater differences count linearly, not squared: trees, debris
 
   // No options: `decided_by` (law.hpp) sets them by the accuracy of the scan. These are those of a fair photogrammetric
   // mesh, with a noise of 0.1 m over 10 m².
@@ -34,11 +34,11 @@ struct Options {
 
   /// What the mesh shows, and how much a sample counts (site, refit, and wherever a wall is near).
   struct Samples {
-    double margin_weight = 0.2;  ///< no option: decided_by
+    double margin_weight = 0.2;                   ///< no option: decided_by
     static constexpr double max_cells = 150'000;  ///< bounds memory: a hall of 9,000 m² is still sampled at 0.25 m
     double level_band = 0.5;                      ///< m; no option: profile.cap_level
-    double melt = 0.5;   ///< m; no option: decided_by
-    double blur = 0.25;  ///< m; no option: decided_by
+    double melt = 0.5;                            ///< m; no option: decided_by
+    double blur = 0.25;                           ///< m; no option: decided_by
   } samples;
 
   /// Robust lines through heights (lines).
@@ -53,7 +53,8 @@ struct Options {
 
   /// The forms of roof that every part is tried with (forms).
   struct Forms {
-    /// Of the samples over a part, every so many are used for a form's pitch that about this many remain. More would not move a line; not measured.
+    /// Of the samples over a part, every so many are used for a form's pitch that about this many remain. More would
+    /// not move a line; not measured.
     std::int64_t samples = 800;
     double min_height = 0.5;                      ///< m
     double cap_percentile = 0.99;                 ///< no option: profile.cap_ridge
@@ -64,13 +65,17 @@ struct Options {
     double max_slope = 5;
     /// Number of directions of a part along which gables and single pitches are tried. Chosen by hand; not measured.
     std::int64_t max_axes = 3;
-    /// Two directions whose cosine is greater than this are one direction. 0.9 is an angle of about 26°; chosen by hand, not measured.
+    /// Two directions whose cosine is greater than this are one direction. 0.9 is an angle of about 26°; chosen by
+    /// hand, not measured.
     double axis_cosine = 0.9;
-    /// A side carries the roof of a direction where the cosine between the two is greater than this. 0.8 is an angle of about 37°; chosen by hand, not measured.
+    /// A side carries the roof of a direction where the cosine between the two is greater than this. 0.8 is an angle of
+    /// about 37°; chosen by hand, not measured.
     double across_cosine = 0.8;
-    /// A side may be a gable end where the sine of the turn at both of its corners is greater than this. 0.5 is an angle of 30°; chosen by hand, not measured.
+    /// A side may be a gable end where the sine of the turn at both of its corners is greater than this. 0.5 is an
+    /// angle of 30°; chosen by hand, not measured.
     double gable_turn = 0.5;
-    /// A side may be a gable end where its length is less than this multiple of its shorter neighbour's. Chosen by hand; not measured.
+    /// A side may be a gable end where its length is less than this multiple of its shorter neighbour's. Chosen by
+    /// hand; not measured.
     double gable_length = 1.2;
   } forms;
 
@@ -81,7 +86,8 @@ struct Options {
     double min_rise = 1.5;   ///< m
     /// Minimum slope (rise per run) of the steep part of a mansard roof. Chosen by hand; not measured.
     double min_slope = 1.2;
-    /// The slope of the upper part of a mansard roof is at most this share of the steep part's. Chosen by hand; not measured.
+    /// The slope of the upper part of a mansard roof is at most this share of the steep part's. Chosen by hand; not
+    /// measured.
     double upper_share = 0.5;
   } mansard;
 
@@ -90,7 +96,8 @@ struct Options {
     double max_depth = 4;   ///< m
     double behind = 3;      ///< m
     double min_rise = 0.8;  ///< m
-    /// A step is proposed where a level and a line leave less than this share of the squares that one line leaves. Docs/decisions/0017-setbacks-by-measured-error.md.
+    /// A step is proposed where a level and a line leave less than this share of the squares that one line leaves.
+    /// Docs/decisions/0017-setbacks-by-measured-error.md.
     double max_rest = 0.8;
   } setback;
 
@@ -107,7 +114,8 @@ struct Options {
 
   /// The best roof over a fixed outline (roof_search).
   struct Search {
-    /// A later cap replaces an earlier one where its error is less than this share of the earlier one's. Docs/decisions/0008-cap-by-measured-error.md.
+    /// A later cap replaces an earlier one where its error is less than this share of the earlier one's.
+    /// Docs/decisions/0008-cap-by-measured-error.md.
     double cap_gain = 0.95;
     /// Maximum number of times that a roof's planes are refitted in a row. Chosen by hand; not measured.
     std::int64_t settle_rounds = 3;
@@ -118,11 +126,13 @@ struct Options {
     static constexpr double hopeless = 2;  ///< a limit on the search: going on never halved a roof's cost
     /// Number of times that all sides of a part are tried in turn. Chosen by hand; not measured.
     std::int64_t rounds = 2;
-    /// All sides are tried again where the last round reduced the cost to at most this share. Chosen by hand; not measured.
+    /// All sides are tried again where the last round reduced the cost to at most this share. Chosen by hand; not
+    /// measured.
     double round_gain = 0.98;
     /// Of a part with more sides, this many, the longest, are tried. Chosen by hand; not measured.
     std::int64_t max_sides = 24;
-    /// Two sides are opposite where the negative cosine of their directions is greater than this. 0.95 is an angle of about 18°; chosen by hand, not measured.
+    /// Two sides are opposite where the negative cosine of their directions is greater than this. 0.95 is an angle of
+    /// about 18°; chosen by hand, not measured.
     double opposite_cosine = 0.95;
   } search;
 
@@ -131,7 +141,9 @@ struct Options {
     /// Maximum number of times that planes are refitted to the middle of their faces. Chosen by hand; not measured.
     std::int64_t rounds = 2;
     double level_slope = 0.6;
-    /// Pitches explain little where they leave at least this share of the squared differences of a flat roof, explain at most this share of those away from the outline, and save less than a part costs. Docs/decisions/0102-pitches-that-explain-little.md.
+    /// Pitches explain little where they leave at least this share of the squared differences of a flat roof, explain
+    /// at most this share of those away from the outline, and save less than a part costs.
+    /// Docs/decisions/0102-pitches-that-explain-little.md.
     double level_gain = 0.8;
   } sharpen;
 
@@ -142,9 +154,11 @@ struct Options {
 
   /// Plans cut in two and joined (pieces).
   struct Pieces {
-    /// An edge takes a profile where at least this share of its length runs along edges with it. Chosen by hand; not measured.
+    /// An edge takes a profile where at least this share of its length runs along edges with it. Chosen by hand; not
+    /// measured.
     double profile_share = 0.5;
-    /// No piece is cut out of which less than this share is known: crowns hide the rest, or the scan has holes. Chosen by hand; not measured.
+    /// No piece is cut out of which less than this share is known: crowns hide the rest, or the scan has holes. Chosen
+    /// by hand; not measured.
     double seen_share = 0.7;
     double min_width = 0.6;  ///< m
     double slit = 0.02;      ///< m
@@ -162,7 +176,8 @@ struct Options {
   /// Parts that are taller than they are wide (tall).
   struct Tall {
     double ratio = 3;
-    /// Walls are seen where the scan is near to this share of the places that are looked at on them. Docs/decisions/0086-tall-parts-and-crowns.md.
+    /// Walls are seen where the scan is near to this share of the places that are looked at on them.
+    /// Docs/decisions/0086-tall-parts-and-crowns.md.
     double walls = 0.5;
     static constexpr double spacing = 0.5;  ///< m; of the grid of places
     double clear = 0.5;                     ///< m
@@ -175,7 +190,8 @@ struct Options {
   struct Joins {
     /// m; straightened neighbours differ by up to 0.01 m: five times that
     static constexpr double touching = 0.05;
-    /// Two parts are searched as one where a quick roof costs less than this multiple of both. Searching edge by edge seldom takes more off; no record of the measurement.
+    /// Two parts are searched as one where a quick roof costs less than this multiple of both. Searching edge by edge
+    /// seldom takes more off; no record of the measurement.
     double quick_excess = 1.15;
     static constexpr std::int64_t shared_faces = 8;  ///< a bound, so that joins which cannot pay are not tried
     double recut_reach = 1.5;                        ///< m
@@ -184,7 +200,8 @@ struct Options {
 
   /// Cuts where the edges of wings go on inside (wings, work).
   struct Wings {
-    /// A corner is reflex where the sine of its turn outwards is greater than this. 0.35 is an angle of 20°; chosen by hand, not measured.
+    /// A corner is reflex where the sine of its turn outwards is greater than this. 0.35 is an angle of 20°; chosen by
+    /// hand, not measured.
     double reflex_sine = 0.35;
     std::int64_t max_cuts = 6;
   } wings;
@@ -196,7 +213,8 @@ struct Options {
     static constexpr std::int64_t max_count = 6;  ///< a limit on the search
     double crisp_rms = 0.15;                      ///< m
     double smooth_rms = 0.35;                     ///< m
-    /// A structure fills its box where its mean height is at least this share of its maximum height. Chosen by hand; not measured.
+    /// A structure fills its box where its mean height is at least this share of its maximum height. Chosen by hand;
+    /// not measured.
     double fullness = 0.73;
     /// The maximum height of a structure is exceeded by one sample in this many. Chosen by hand; not measured.
     std::int64_t fullness_part = 20;
@@ -204,9 +222,11 @@ struct Options {
     double fair_area = 30;        ///< m²
     double fair_rms = 0.45;       ///< m
     double large_area = 80;       ///< m²
-    /// A structure of at least refine.cuts_large_area is cut out where it explains this share of the part's error. Chosen by hand; not measured.
+    /// A structure of at least refine.cuts_large_area is cut out where it explains this share of the part's error.
+    /// Chosen by hand; not measured.
     double large_gain = 0.8;
-    /// A line across a part is proposed where it explains at least this share of the part's error. Chosen by hand; not measured.
+    /// A line across a part is proposed where it explains at least this share of the part's error. Chosen by hand; not
+    /// measured.
     double line_gain = 0.15;
     double line_min_width = 1.25;  ///< m
     /// Two cuts are one where at most this share of their cells is on different sides. Chosen by hand; not measured.
@@ -217,7 +237,8 @@ struct Options {
     double askew_price = 0.25;
     double new_direction = 0.14;                       ///< rad
     static constexpr std::int64_t max_directions = 4;  ///< a limit on the search
-    /// Cuts are compared with at most about this many samples; of more, every second or third is used. Chosen by hand; not measured.
+    /// Cuts are compared with at most about this many samples; of more, every second or third is used. Chosen by hand;
+    /// not measured.
     double max_cells = 8000;
     double sliver_area = 1;                   ///< m²
     double sliver_width = 0.5;                ///< m
@@ -236,9 +257,11 @@ struct Options {
     double min_slope = 0.25;
     /// Dormers are on slopes no steeper than this. Chosen by hand; not measured.
     double max_slope = 2;
-    /// Share of the squared difference from the slope that a dormer may leave; a tree or a chimney leaves more. Docs/decisions/0087-dormers-by-default.md.
+    /// Share of the squared difference from the slope that a dormer may leave; a tree or a chimney leaves more.
+    /// Docs/decisions/0087-dormers-by-default.md.
     double max_rest = 0.25;
-    /// A dormer is gabled where that leaves less than this share of the error of a level one. Chosen by hand; not measured.
+    /// A dormer is gabled where that leaves less than this share of the error of a level one. Chosen by hand; not
+    /// measured.
     double gable_gain = 0.8;
   } dormers;
 
@@ -248,7 +271,8 @@ struct Options {
     double other = 12 * std::numbers::pi / 180;  ///< rad
     /// A second direction has at least this share of a part's outline. Chosen by hand; not measured.
     double second_share = 0.25;
-    /// A place has a height where the cells around it that were sampled have at least this weight of bilinear interpolation. Chosen by hand; not measured.
+    /// A place has a height where the cells around it that were sampled have at least this weight of bilinear
+    /// interpolation. Chosen by hand; not measured.
     double min_weight = 0.25;
   } directions;
 
@@ -257,21 +281,26 @@ struct Options {
     static constexpr std::int64_t gap_cells = 3;  ///< of the grid
     double bin = 0.25;                            ///< m
     static constexpr double max_residual = 40;    ///< m; the histogram ends there
-    /// A peak of the histogram holds at least this share of refine.least_area in its three bins. Chosen by hand; not measured.
+    /// A peak of the histogram holds at least this share of refine.least_area in its three bins. Chosen by hand; not
+    /// measured.
     double peak_share = 0.5;
-    /// Two peaks of the histogram are two levels where the valley between them is lower than this share of the lower one. Chosen by hand; not measured.
+    /// Two peaks of the histogram are two levels where the valley between them is lower than this share of the lower
+    /// one. Chosen by hand; not measured.
     double valley = 0.5;
     static constexpr std::int64_t max_levels = 6;  ///< a limit on the search
-    /// A level is used where it differs from the model by more than this multiple of refine.cuts_min_step. Chosen by hand; not measured.
+    /// A level is used where it differs from the model by more than this multiple of refine.cuts_min_step. Chosen by
+    /// hand; not measured.
     double level_clearance = 1.5;
     /// A region has at least this share of refine.least_area; its outline may have more. Chosen by hand; not measured.
     double min_area_share = 0.75;
     /// A region is used where at least this share of its cells was sampled. Chosen by hand; not measured.
     double seen_share = 0.6;
-    /// What a region surrounds is tried in its place where the region fills at most this share of its box. Chosen by hand; not measured.
+    /// What a region surrounds is tried in its place where the region fills at most this share of its box. Chosen by
+    /// hand; not measured.
     double hollow_share = 0.75;
     static constexpr std::int64_t rim_cells = 2;  ///< of the grid
-    /// The walls of a region have a direction where their resultant is at least this share of their sum. Noise around a square reaches 0.2; not measured further.
+    /// The walls of a region have a direction where their resultant is at least this share of their sum. Noise around a
+    /// square reaches 0.2; not measured further.
     double agreement = 0.6;
   } regions;
 
@@ -297,11 +326,13 @@ struct Options {
     std::int64_t step_rounds = 3;
     /// Number of times that all walls of an outline are moved to steps. Chosen by hand; not measured.
     std::int64_t settle_rounds = 2;
-    /// A wall goes out to the part's edge where at least this share of its rows ends near it. Chosen by hand; not measured.
+    /// A wall goes out to the part's edge where at least this share of its rows ends near it. Chosen by hand; not
+    /// measured.
     double push_share = 0.9;
     double near_edge = 0.6;   ///< m
     double near_line = 0.25;  ///< m
-    /// A wall and an edge are parallel where the offset per length is at most this. 0.09 is 5°; chosen by hand, not measured.
+    /// A wall and an edge are parallel where the offset per length is at most this. 0.09 is 5°; chosen by hand, not
+    /// measured.
     double max_slant = 0.09;
     double min_overlap = 0.5;  ///< m
     double max_gap = 1;        ///< m
@@ -314,7 +345,8 @@ struct Options {
     static constexpr std::int64_t rows_per_bin = 2;  ///< of the grid
     /// A line is a step or a valley where more than this share of its rows is. Chosen by hand; not measured.
     double row_share = 0.6;
-    /// A row has a step where it has at least this share of refine.cuts_min_step. Clear of the noise of one row; not measured.
+    /// A row has a step where it has at least this share of refine.cuts_min_step. Clear of the noise of one row; not
+    /// measured.
     double step_share = 0.7;
     double min_valley = 0.15;  ///< m
   } splits;
@@ -324,7 +356,8 @@ struct Options {
     static constexpr double bin = 0.5;  ///< m; of the grid
     double ridge_min_area = 30;         ///< m²
     double max_slope = 1.5;
-    /// A cut is evaluated by what two surfaces explain beyond one where one explains at least all but this share of the model's error. Chosen by hand; not measured.
+    /// A cut is evaluated by what two surfaces explain beyond one where one explains at least all but this share of the
+    /// model's error. Chosen by hand; not measured.
     double model_share = 0.5;
   } surfaces;
 };

@@ -61,15 +61,16 @@ struct Options {
       ground_attribute;
 
   // How outlines are read, and what the shapes look like.
-  double side_turn = 0.026;           ///< rad, 1.5°; turns under this are none
-  double minimum_rise = 0.01;         ///< m; a roof or a wall less high than this is none
-  double cap_clearance = 0.01;        ///< m; the cap stands so much over the ridge, so as not to cut it
+  double side_turn = 0.026;     ///< rad, 1.5°; turns under this are none
+  double minimum_rise = 0.01;   ///< m; a roof or a wall less high than this is none
+  double cap_clearance = 0.01;  ///< m; the cap stands so much over the ridge, so as not to cut it
   /// Minimum share of its smallest box that an outline with a single ridge fills. Chosen by hand; not measured.
   double rectangle_fill = 0.9;
-  double wing_corner = 0.35;          ///< rad; 90° ± 20°
+  double wing_corner = 0.35;  ///< rad; 90° ± 20°
   /// Minimum depth of a wing, as a share of its width. Chosen by hand; not measured.
   double wing_depth = 0.3;
-  /// Minimum distance from the outline to the top of the triangle over a wing's end, as a share of the triangle's height. Chosen by hand; not measured.
+  /// Minimum distance from the outline to the top of the triangle over a wing's end, as a share of the triangle's
+  /// height. Chosen by hand; not measured.
   double wing_clearance = 0.95;
   /// Share of a gambrel roof's run that is its steep part. Chosen by hand so that roofs look drawn; not measured.
   double gambrel_run = 0.35;
@@ -77,18 +78,21 @@ struct Options {
   double gambrel_rise = 0.65;
   /// Share of a mansard roof's height that is its steep part. Chosen by hand so that roofs look drawn; not measured.
   double mansard_rise = 0.7;
-  /// Maximum share of a mansard roof's run that is its steep part. Chosen by hand so that roofs look drawn; not measured.
+  /// Maximum share of a mansard roof's run that is its steep part. Chosen by hand so that roofs look drawn; not
+  /// measured.
   double mansard_run = 0.35;
   /// Slope of the steep part of a mansard roof. Chosen by hand so that roofs look drawn; not measured.
   double mansard_slope = 2.747;
-  /// Cosine of the maximum angle between a side that is level in a skillion roof and the direction across its slope. Chosen by hand; not measured.
+  /// Cosine of the maximum angle between a side that is level in a skillion roof and the direction across its slope.
+  /// Chosen by hand; not measured.
   double level_cosine = 0.99966;
-  /// Cosine of the maximum angle between roof:direction and the edge that it is taken for. Chosen by hand; not measured.
+  /// Cosine of the maximum angle between roof:direction and the edge that it is taken for. Chosen by hand; not
+  /// measured.
   double direction_cosine = 0.966;
-  double corner_cut = 0.08;           ///< m; width of the cut at a skillion's lowest corner
+  double corner_cut = 0.08;  ///< m; width of the cut at a skillion's lowest corner
   /// Maximum share of the sides beside a skillion roof's lowest corner that is cut off. Chosen by hand; not measured.
   double corner_cut_share = 1.0 / 3;
-  double apex_distance = 0.2;         ///< m; nearer to a side than this, its roof would be a wall
+  double apex_distance = 0.2;  ///< m; nearer to a side than this, its roof would be a wall
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -59,33 +59,36 @@ struct Options {
   bool cliques = false;           ///< give the solver a row for every clique of conflicts as well
 
   // Slivers and needles (O7).
-  /// Tangent of the maximum turn between edges that count as one when slivers and needles are looked for. Reference implementation chordatlas: 0.05 rad; not measured.
+  /// Tangent of the maximum turn between edges that count as one when slivers and needles are looked for. Reference
+  /// implementation chordatlas: 0.05 rad; not measured.
   double thin_run_turn = 0.1;
   double thin_shortest = 0.2;  ///< m; runs shorter than that have no direction to speak of
   double thin_parallel = 0.3;  ///< rad; opposite runs are parallel within this
 
   // What is measured of a face, and along an edge.
-  double samples_per_area = 2.0;    ///< height samples per m² of a face
+  double samples_per_area = 2.0;  ///< height samples per m² of a face
   /// Minimum number of height samples per face. Chosen by hand; not measured.
   std::size_t minimum_samples = 9;
-  /// Share of a face within the footprints above which the face is inside even without mesh, and is not peeled off. Chosen by hand; not measured.
+  /// Share of a face within the footprints above which the face is inside even without mesh, and is not peeled off.
+  /// Chosen by hand; not measured.
   double surely_inside = 0.8;
   /// m between samples along an edge, with height_measure = along; of the grid of places
   static constexpr double height_spacing = 0.5;
 
   // GIS edges.
-  double gis_near = 0.2;           ///< m; as far as the other member's boundary, or a wall, may be off a GIS edge
-  double gis_shortest = 0.05;      ///< m; of a stretch of GIS edge, and of a gap between stretches
-  /// Sine of the maximum angle between an edge of a footprint and a line that runs along it. Chosen by hand; not measured.
+  double gis_near = 0.2;       ///< m; as far as the other member's boundary, or a wall, may be off a GIS edge
+  double gis_shortest = 0.05;  ///< m; of a stretch of GIS edge, and of a gap between stretches
+  /// Sine of the maximum angle between an edge of a footprint and a line that runs along it. Chosen by hand; not
+  /// measured.
   double gis_parallel_sine = 0.1;
 
   // From faces to parts.
   double smallest_part = 1.0;  ///< m²; smaller parts go to their neighbour, or out
   /// Narrow parts of at least this share of their neighbour's height are part of its roof. Docs/decisions/0013.
   double low_share = 0.5;
-  double strip_level = 1.0;    ///< m; lower strips are buildings where heights within this of each other …
-  double strip_share = 0;      ///< … are at least this share of all; 0: all strips are
-  double collinear = 0.01;     ///< m; corners this near to the edge without them are dropped
+  double strip_level = 1.0;  ///< m; lower strips are buildings where heights within this of each other …
+  double strip_share = 0;    ///< … are at least this share of all; 0: all strips are
+  double collinear = 0.01;   ///< m; corners this near to the edge without them are dropped
   /// m; how far a part that touches itself draws back; a tenth of what surveys resolve
   static constexpr double opening = 0.01;
 

@@ -25,11 +25,13 @@ struct Options {
 
   // Lines in a slice.
   double line_node_spacing = 0.3;  ///< m; chains may be cut at nodes this far apart
-  /// Pieces of at least this number of node spacings are fitted without their first and last spacing, which may reach around a corner. Chosen by hand; not measured.
+  /// Pieces of at least this number of node spacings are fitted without their first and last spacing, which may reach
+  /// around a corner. Chosen by hand; not measured.
   std::size_t line_trim_nodes =
       6;  ///< a piece of so many node distances leaves out its first and last one: the corner may be in it
-  double line_piece_price = 1.0;     ///< m of chain that lie line_distance off: what another piece must save
-  /// Minimum ratio of a piece's chord to its length along the chain; pieces that wind more are vegetation. Chosen by hand; not measured.
+  double line_piece_price = 1.0;  ///< m of chain that lie line_distance off: what another piece must save
+  /// Minimum ratio of a piece's chord to its length along the chain; pieces that wind more are vegetation. Chosen by
+  /// hand; not measured.
   double line_straightness = 0.6;
   /// Cosine of the maximum angle between two pieces that may be joined to one line. Chosen by hand; not measured.
   double line_merge_cosine = 0.9;
@@ -40,42 +42,50 @@ struct Options {
   // Lines turned to the footprints' edges.
   double gis_straight_turn =
       0.05;  ///< rad; consecutive edges that bend less count as one: vertices of party walls must not shorten a facade
-  double gis_minimum_edge = 0.5;   ///< m; a shorter GIS edge has no direction to speak of
-  /// Score of an edge at right angles to a line, as a share of the score of a parallel edge. Reference implementation chordatlas: 0.2, with its sign corrected.
+  double gis_minimum_edge = 0.5;  ///< m; a shorter GIS edge has no direction to speak of
+  /// Score of an edge at right angles to a line, as a share of the score of a parallel edge. Reference implementation
+  /// chordatlas: 0.2, with its sign corrected.
   double gis_square_score = 0.2;
   double gis_maximum_swing = 1.0;  ///< m; an end that would move farther was measured better than that
 
   // Clusters of lines.
   double thin_turn = 0.7 * std::numbers::pi;  ///< rad; lines turned by more are opposite to each other
-  /// Weight of lines below sweep.low_height, and of sides that are mostly below it and away from the footprints. Reference implementation chordatlas: 0.1.
+  /// Weight of lines below sweep.low_height, and of sides that are mostly below it and away from the footprints.
+  /// Reference implementation chordatlas: 0.1.
   double low_weight = 0.1;
   /// Number of slices up and down within which a cluster of lines continues. Reference implementation chordatlas: 2.
   std::size_t cluster_reach = 2;
-  /// Minimum number of lines in a cluster. A metre of height at 0.2 m, with one slice missed; the reference implementation asks for 6 lines at 0.5 m.
+  /// Minimum number of lines in a cluster. A metre of height at 0.2 m, with one slice missed; the reference
+  /// implementation asks for 6 lines at 0.5 m.
   std::size_t cluster_lines = 4;
-  /// Minimum share of a line beside its cluster's first line when it is turned by up to sweep.cluster_turn. Reference implementation chordatlas: 0.8.
+  /// Minimum share of a line beside its cluster's first line when it is turned by up to sweep.cluster_turn. Reference
+  /// implementation chordatlas: 0.8.
   double cluster_overlap = 0.8;
-  double cluster_turn = 0.3;                  ///< rad
-  /// Minimum share of a line beside its cluster's first line when it is turned by up to sweep.cluster_turn_parallel. Reference implementation chordatlas: 0.5.
+  double cluster_turn = 0.3;  ///< rad
+  /// Minimum share of a line beside its cluster's first line when it is turned by up to sweep.cluster_turn_parallel.
+  /// Reference implementation chordatlas: 0.5.
   double cluster_overlap_parallel = 0.5;
-  double cluster_turn_parallel = 0.1;     ///< rad
+  double cluster_turn_parallel = 0.1;  ///< rad
 
   // Wall feet of a cluster.
-  double column_width = 0.2;         ///< m
-  double column_gap = 3.0;           ///< m without columns part an edge in two
-  /// Columns with less than this share of the median column's lines are left out, as the ragged end of a sweep-edge. Chosen by hand; not measured.
+  double column_width = 0.2;  ///< m
+  double column_gap = 3.0;    ///< m without columns part an edge in two
+  /// Columns with less than this share of the median column's lines are left out, as the ragged end of a sweep-edge.
+  /// Chosen by hand; not measured.
   double column_support = 0.25;
   double wall_minimum_height = 1.0;  ///< m of height; less is a step in a roof
-  /// Maximum lateral movement of a wall per metre of height. Reference implementation chordatlas: 0.5 rad from the vertical, here as a tangent.
+  /// Maximum lateral movement of a wall per metre of height. Reference implementation chordatlas: 0.5 rad from the
+  /// vertical, here as a tangent.
   double wall_slope = 0.546;
-  double wall_window = 1.0;          ///< m of height a slope is taken over: single slices are too noisy
-  double wall_gap = 0.65;            ///< m of height without samples that a wall continues over, if not 3.1 slices
+  double wall_window = 1.0;  ///< m of height a slope is taken over: single slices are too noisy
+  double wall_gap = 0.65;    ///< m of height without samples that a wall continues over, if not 3.1 slices
   /// Number of slice intervals without samples over which a wall continues. Three slices, and a margin for rounding.
   double wall_gap_slices = 3.1;
-  double wall_spread = 0.5;          ///< m; a wall leaves its own mean by less
+  double wall_spread = 0.5;  ///< m; a wall leaves its own mean by less
   /// Minimum height of the lowest wall in a column, as a share of the tallest one's. Chosen by hand; not measured.
   double wall_lower_share = 0.3;
-  /// Minimum share of a side's columns with a wall; below it, the side is placed at its gutter. Chosen by hand; not measured.
+  /// Minimum share of a side's columns with a wall; below it, the side is placed at its gutter. Chosen by hand; not
+  /// measured.
   double wall_share = 0.25;
   double untidy_height = 2.5;        ///< m above ground where cars and hedges hide the wall
   std::size_t setback_columns = 10;  ///< columns of a setback, at least
@@ -87,15 +97,16 @@ struct Options {
   double minimum_length = 1.0;  ///< m; shorter sweep-edges are left out
 
   // Selection of sides.
-  double same_line = 0.4;           ///< m; sides whose feet are this near stand on one line
-  double same_line_gap = 2.0;       ///< m along it: a balcony, a bay, a tree before the wall
-  double same_line_cosine = 0.98;   ///< cosine of 0.2 rad
-  double outline_margin = 2.0;      ///< m outside the footprints; farther off stand trees and neighbours
-  double outline_spacing = 0.25;    ///< m between the points of an edge that are tested
-  double low_margin = 0.75;         ///< m; a low thing farther outside is a hedge or a car
+  double same_line = 0.4;          ///< m; sides whose feet are this near stand on one line
+  double same_line_gap = 2.0;      ///< m along it: a balcony, a bay, a tree before the wall
+  double same_line_cosine = 0.98;  ///< cosine of 0.2 rad
+  double outline_margin = 2.0;     ///< m outside the footprints; farther off stand trees and neighbours
+  double outline_spacing = 0.25;   ///< m between the points of an edge that are tested
+  double low_margin = 0.75;        ///< m; a low thing farther outside is a hedge or a car
   /// A side is low when more than this share of its area is below sweep.low_height. Chosen by hand; not measured.
   double low_share = 0.8;
-  /// Sides that keep less than this share of their length next to opposite lines count with that share alone. Chosen by hand; not measured.
+  /// Sides that keep less than this share of their length next to opposite lines count with that share alone. Chosen by
+  /// hand; not measured.
   double thin_share = 0.4;
   double maximum_scatter = 0.35;    ///< m of scatter: foliage
   double roof_look_down = 1.0;      ///< m below a roof's lower end
@@ -104,7 +115,7 @@ struct Options {
   double roof_cosine = 0.9;
   /// Minimum share of a roof's line next to its continuation below. Chosen by hand; not measured.
   double roof_share = 0.5;
-  double twin_distance = 0.5;       ///< m between edges that run along each other
+  double twin_distance = 0.5;  ///< m between edges that run along each other
   /// Minimum share of a sweep-edge's length beside a larger one for it to be left out. Chosen by hand; not measured.
   double twin_share = 0.8;
 
@@ -115,22 +126,26 @@ struct Options {
   double registration_distance = 1.0;         ///< m; walls farther off their footprint are another thing
   double registration_distance_astray = 1.5;  ///< m; unless all of them are
   double registration_noise = 0.02;           ///< m; distances under it are all alike
-  /// Minimum share of the walls' length that must face across every direction for a displacement to be determined. Chosen by hand; not measured.
+  /// Minimum share of the walls' length that must face across every direction for a displacement to be determined.
+  /// Chosen by hand; not measured.
   double registration_determined = 0.02;
   /// A displacement counts when it is this many times the median distance that it leaves. Docs/decisions/0015.
   double registration_stands_out = 2.0;
-  /// A displacement also counts when it is this many times its standard error. 95 % of a normal distribution in the plane; docs/decisions/0018.
+  /// A displacement also counts when it is this many times its standard error. 95 % of a normal distribution in the
+  /// plane; docs/decisions/0018.
   double registration_significance = 2.45;
   /// Share of the mean distance that a displacement must explain when its standard error decides. Docs/decisions/0018.
   double registration_explains = 0.15;
   /// Share of the mean distance that a displacement larger than sweep.gis_offset must explain. Docs/decisions/0018.
   double registration_explains_astray = 0.5;
-  double registration_minimum_shift = 0.12;   ///< m; less is as likely the scan's own displacement as the footprints'
-  /// Number of rounds of the reweighted least squares that fit the displacement. Far more than the fit takes to converge; not measured.
+  double registration_minimum_shift = 0.12;  ///< m; less is as likely the scan's own displacement as the footprints'
+  /// Number of rounds of the reweighted least squares that fit the displacement. Far more than the fit takes to
+  /// converge; not measured.
   std::size_t registration_rounds = 30;
 
   // Walls put on footprints.
-  /// Cosine of the maximum angle between a wall and the footprint's edge it is moved onto. Chosen by hand; not measured.
+  /// Cosine of the maximum angle between a wall and the footprint's edge it is moved onto. Chosen by hand; not
+  /// measured.
   double footprint_cosine = 0.7;
   double footprint_piece = 0.1;      ///< m
   double footprint_straight = 0.03;  ///< m; corners this near to the line without them do not bend it
@@ -141,7 +156,7 @@ struct Options {
   double eaves_spread = 0.3;  ///< m; median distance of the eaves' columns from their median
 
   // Roof steps.
-  double step_cell = 0.25;          ///< m
+  double step_cell = 0.25;  ///< m
   /// Half width of a roof step's flank, in cells. Chosen by hand; not measured.
   std::size_t step_near = 2;
   /// Number of cell distances beside a roof step's flank over which the slope is fitted. Chosen by hand; not measured.
@@ -154,24 +169,24 @@ struct Options {
   double step_minimum_rows = 4;
   /// Minimum jump of a row, as a share of the mean over the rows around it. Chosen by hand; not measured.
   double step_own_share = 1.0 / 3;
-  double step_noise = 0.2;          ///< m; a lower jump is noise
-  double step_roughness = 0.2;      ///< m; root mean square off the slope: foliage, chimneys
-  double step_ground = 2.0;         ///< m above ground; lower is no roof; no option: segment.min_height
-  double step_grain_turn = 0.06;    ///< rad; edges that differ by less, or by that from a right angle, run alike
-  double step_grain_edge = 1.0;     ///< m; shorter edges of a footprint tell no direction
-  double step_grain_length = 8.0;   ///< m of edge that make a direction
-  double step_band = 0.4;           ///< m; jumps this near a line are of one step
-  double step_gap = 1.25;           ///< m along it without a jump: noise, a chimney
-  double step_wide_gap = 4.0;       ///< m where two roofs cross each other: the step changes its sign there
+  double step_noise = 0.2;         ///< m; a lower jump is noise
+  double step_roughness = 0.2;     ///< m; root mean square off the slope: foliage, chimneys
+  double step_ground = 2.0;        ///< m above ground; lower is no roof; no option: segment.min_height
+  double step_grain_turn = 0.06;   ///< rad; edges that differ by less, or by that from a right angle, run alike
+  double step_grain_edge = 1.0;    ///< m; shorter edges of a footprint tell no direction
+  double step_grain_length = 8.0;  ///< m of edge that make a direction
+  double step_band = 0.4;          ///< m; jumps this near a line are of one step
+  double step_gap = 1.25;          ///< m along it without a jump: noise, a chimney
+  double step_wide_gap = 4.0;      ///< m where two roofs cross each other: the step changes its sign there
   /// Minimum share of a roof step's length with a jump. Chosen by hand; not measured.
   double step_cover = 0.7;
-  double step_full_jump = 1.0;      ///< m; higher ones say no more
-  double step_bend = 0.2;           ///< m across, from end to end, from which a step may be turned from the grain …
+  double step_full_jump = 1.0;  ///< m; higher ones say no more
+  double step_bend = 0.2;       ///< m across, from end to end, from which a step may be turned from the grain …
   /// Tangent of the maximum angle by which a roof step is turned from its direction. Chosen by hand; not measured.
   double step_turn = 0.05;
-  double step_part = 1.5;           ///< m; of a line that jumps one way, to be believed
-  double step_reach = 1.5;          ///< m beyond its ends to the wall or outline it runs up to
-  double step_same_line = 0.75;     ///< m; a wall or a footprint's edge this near is the same line
+  double step_part = 1.5;        ///< m; of a line that jumps one way, to be believed
+  double step_reach = 1.5;       ///< m beyond its ends to the wall or outline it runs up to
+  double step_same_line = 0.75;  ///< m; a wall or a footprint's edge this near is the same line
   /// Sine of the maximum angle between a roof step and a line that is the same. Chosen by hand; not measured.
   double step_same_sine = 0.2;
 };

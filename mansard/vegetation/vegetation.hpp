@@ -13,22 +13,25 @@
 namespace mansard::vegetation {
 
 struct Options {
-  bool mask = true;               ///< whether crowns are found at all
-  double grid = 0.25;             ///< m between samples of the top surface
-  double reach = 4.0;             ///< m; crowns are looked for up to this distance outside the outline
-  double window = 2.75;           ///< m; side of the squares in which the surface is compared with a plane
-  double roughness = 0.08;        ///< m, root mean square off the best plane: more is not a plane roof
-  /// Maximum agreement of the slopes in a square, on two directions at right angles, of a crown. Measured on simulated crowns of odd seeds: docs/decisions/0062.
+  bool mask = true;         ///< whether crowns are found at all
+  double grid = 0.25;       ///< m between samples of the top surface
+  double reach = 4.0;       ///< m; crowns are looked for up to this distance outside the outline
+  double window = 2.75;     ///< m; side of the squares in which the surface is compared with a plane
+  double roughness = 0.08;  ///< m, root mean square off the best plane: more is not a plane roof
+  /// Maximum agreement of the slopes in a square, on two directions at right angles, of a crown. Measured on simulated
+  /// crowns of odd seeds: docs/decisions/0062.
   double local_squareness = 0.7;
-  double width = 1.25;            ///< m; what is rough over less than that is an edge, a parapet or a chimney
-  double step = 1.0;             ///< m; heights of neighbouring samples that differ by more belong to different objects
-  double min_area = 3.0;         ///< m², of the rough surface
-  double max_area = 200.0;       ///< m²
-  double min_inside = 0.5;       ///< m² of it over the outline; other trees do not matter
-  /// Maximum agreement of all slopes of a crown on two directions at right angles. Roof structures have 0.44 and more: docs/decisions/0062.
+  double width = 1.25;      ///< m; what is rough over less than that is an edge, a parapet or a chimney
+  double step = 1.0;        ///< m; heights of neighbouring samples that differ by more belong to different objects
+  double min_area = 3.0;    ///< m², of the rough surface
+  double max_area = 200.0;  ///< m²
+  double min_inside = 0.5;  ///< m² of it over the outline; other trees do not matter
+  /// Maximum agreement of all slopes of a crown on two directions at right angles. Roof structures have 0.44 and more:
+  /// docs/decisions/0062.
   double squareness = 0.45;
-  double overhang = 0.06;        ///< share of samples with the underside of the surface visible below them
-  /// Minimum share of a crown outside the footprints for it to be that of a tree beside the building. Chosen by hand; not measured.
+  double overhang = 0.06;  ///< share of samples with the underside of the surface visible below them
+  /// Minimum share of a crown outside the footprints for it to be that of a tree beside the building. Chosen by hand;
+  /// not measured.
   double beyond = 0.25;
   double rise_beside = 2.0;      ///< m from the lowest to the highest sample of such a crown
   double rise_within = 3.0;      ///< m; the same of crowns within the outline, where roof structures overhang too

@@ -35,7 +35,8 @@ auto nothing_but(const Planted& planted) -> simulate::ScanOptions {
 }
 
 /// m²: ∫ of the autocorrelation of the noise of `simulate` over the plane. Of an octave it is the square of the
-/// lattice's step, half a wavelength, over ∫ s² + (1 − s)² in both directions; the variance of the finer octave is 0.19.
+/// lattice's step, half a wavelength, over ∫ s² + (1 − s)² in both directions; the variance of the finer octave is
+/// 0.19.
 auto area_of_noise(double wavelength) -> double {
   constexpr double mean_square = 181.0 / 231, coarse = 0.81, fine = 0.19;
   return wavelength * wavelength / 4 / (mean_square * mean_square) * (coarse + fine / 4);
@@ -63,8 +64,11 @@ TEST(Accuracy, of_planted_scans_is_measured_within_a_fifth) {
           const rays::Scene scene(scan->mesh);
           const auto found = measure(scan->mesh, scene, outline);
           const double area = std::max(area_of_noise(length), resolution * resolution);
-          std::printf("%.3f %.3f %4.2f | %5.2f %5.2f %4.2f | %.2f %.2f %4.2f | %.2f %.2f %4.2f | %.2f %.2f\n", noise, found.noise, found.noise / noise, area, found.correlated_area, found.correlated_area / area,
-                      resolution, found.spacing, found.spacing / resolution, melt, found.blur, found.blur / melt, length == 0 ? 0 : geometry::length(planted.offset), geometry::length(found.offset - planted.offset));
+          std::printf("%.3f %.3f %4.2f | %5.2f %5.2f %4.2f | %.2f %.2f %4.2f | %.2f %.2f %4.2f | %.2f %.2f\n", noise,
+                      found.noise, found.noise / noise, area, found.correlated_area, found.correlated_area / area,
+                      resolution, found.spacing, found.spacing / resolution, melt, found.blur, found.blur / melt,
+                      length == 0 ? 0 : geometry::length(planted.offset),
+                      geometry::length(found.offset - planted.offset));
           ++count;
           wrong += 0;
         }

@@ -83,6 +83,17 @@ TEST_F(Simulate, scans_a_labelled_model_which_is_then_the_truth) {
   EXPECT_EQ(report["truth"]["buildings"]["matched"], 1);
 }
 
+TEST_F(Simulate, says_how_accurate_its_scan_and_its_points_are) {
+  const auto made =
+      simulate("--block towers --preset clean --points 4 --simulate-points-noise 0.03 --simulate-direction 0");
+  ASSERT_EQ(made.exit, 0) << made.err;
+  const auto planted = json::parse(read(at("block/truth.json")))["planted"];
+  for (const auto* name : {"noise_m", "correlated_area_m2", "spacing_m", "blur_m"}) EXPECT_EQ(planted[name], 0) << name;
+  EXPECT_NEAR(planted["offset_m"][0].get<double>(), -0.2, 1e-9);
+  EXPECT_NEAR(planted["points"]["noise_m"].get<double>(), 0.03, 0.002);
+  EXPECT_NEAR(planted["points"]["correlated_area_m2"].get<double>(), 0.25, 1e-9);
+}
+
 TEST_F(Simulate, has_the_same_bytes_with_one_thread_and_two) {
   ASSERT_EQ(simulate("--block perimeter --resolution 0.8 -j 1", "one").exit, 0);
   ASSERT_EQ(simulate("--block perimeter --resolution 0.8 -j 2", "two").exit, 0);

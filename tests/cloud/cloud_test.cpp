@@ -295,7 +295,7 @@ TEST(CellFor, a_density_is_a_power_of_two_with_enough_points) {
   const cloud::Options options;
   EXPECT_EQ(cloud::cell_for(1000, options), 0.25);
   EXPECT_EQ(cloud::cell_for(16, options), 0.5);
-  EXPECT_EQ(cloud::cell_for(8, options), 1);
+  EXPECT_EQ(cloud::cell_for(8, options), 0.5);
   EXPECT_EQ(cloud::cell_for(2, options), 1);  // fewer a cell, rather than cells of 2 m
   EXPECT_EQ(cloud::cell_for(1, options), 2);
   EXPECT_EQ(cloud::cell_for(0.01, options), 2);

@@ -33,7 +33,7 @@ case $2 in
     JOBS=3 nightly debug || fail "failed"
     grep -qE '^bin/ctest --preset debug .*-j 3 -LE browser$' "$calls" || fail "not as many tests at once, or those in browsers"
     says '^\| `debug` \| .* \| passed \| 11 \| 0 \| 2 \| 0 \| 20[0-9-]+ \| 1\.2\.3, abc1234 \|$' || fail "no row of debug"
-    for lane in asan clang firefox headers tidy fuzz properties kills clean; do
+    for lane in asan clang firefox headers tidy fuzz properties kills fixed_point clean; do
       says "^\| \`$lane\` \| .* \| not run \| \| \| \| \| \| \|$" || fail "$lane was not run"
     done
     ;;
@@ -47,7 +47,7 @@ case $2 in
     nightly debug || [[ $? -eq 1 ]] || fail "failed"
     says '^- `asan`: a\.b, a\.c$' || fail "what failed in asan is gone"
     says '^- `debug`: a\.b, a\.c$' || fail "what failed in debug is not named"
-    [[ $(grep -c '^| `' "$page") -eq 10 ]] || fail "a lane has not one row"
+    [[ $(grep -c '^| `' "$page") -eq 11 ]] || fail "a lane has not one row"
     ;;
   nightly_reports_a_lane_that_does_not_build)
     stand_in bin/cmake '[[ "$*" != *--build* ]]'
@@ -69,11 +69,13 @@ case $2 in
   nightly_counts_headers_and_sources)
     stand_in tools/check_headers.sh 'printf "check_headers: mansard/a/a.hpp: passed\nnoise: passed\n"'
     stand_in tools/tidy.sh 'printf "tidy: mansard/a/a.cpp: passed\ntidy: mansard/a/b.cpp: failed\n"; exit 1'
-    nightly headers tidy || [[ $? -eq 1 ]] || fail "failed"
+    stand_in tools/fixed_point.py 'printf "| hall | 3 |\nfixed_point: hall: passed\nfixed_point: terrace_1: failed\n"; exit 1'
+    nightly headers tidy fixed_point || [[ $? -eq 1 ]] || fail "failed"
     grep -q '^tools/check_headers.sh --all$' "$calls" || fail "not all headers"
     says '^\| `headers` \| .* \| passed \| 1 \| 0 \| 0 \|' || fail "no row of headers"
     says '^\| `tidy` \| .* \| failed \| 1 \| 1 \| 0 \|' || fail "no row of tidy"
     says '^- `tidy`: mansard/a/b.cpp$' || fail "what failed is not named"
+    says '^\| `fixed_point` \| .* \| failed \| 1 \| 1 \| 0 \|' && says '^- `fixed_point`: terrace_1$' || fail "no row of fixed_point"
     ;;
   nightly_counts_tests_in_firefox)
     mkdir -p "$scratch/apps/workbench/tests"

@@ -39,7 +39,7 @@ inline auto pair_of_houses() -> simulate::Truth {
   return truth_of({house("low", 0, 0, 12, 10, 6), house("high", 12, 0, 24, 10, 9)});
 }
 
-/// No noise, no losses, no melt, nothing but buildings and level ground.
+/// No noise, no losses, no melt, nothing but buildings and level ground, sampled.
 inline auto clean() -> simulate::ScanOptions {
   simulate::Options options;
   auto list = simulate::option_list(options);
@@ -47,6 +47,7 @@ inline auto clean() -> simulate::ScanOptions {
     const auto* option = list.find(key.substr(key.find('.') + 1));
     EXPECT_TRUE(option != nullptr && option->set(value)) << key;
   }
+  options.scan.exact = false;
   return options.scan;
 }
 

@@ -120,6 +120,16 @@ TEST_F(ModelTruths, are_scanned_where_their_faces_are) {
   }
 }
 
+TEST_F(ModelTruths, are_scanned_exactly_as_the_same_houses_of_plans) {
+  auto options = test::clean();
+  options.exact = true;
+  const auto seen = scan(truth(box("low", 0, 12, 6) + box("high", 12, 24, 9)).surface, options, 1);
+  ASSERT_TRUE(seen) << base::to_string(seen.error());
+  const auto raised = test::scanned(test::pair_of_houses(), options);
+  for (const auto kind : {Class::wall, Class::roof, Class::ground})
+    EXPECT_NEAR(test::area_of(*seen, kind), test::area_of(raised, kind), 1e-6) << to_string(kind);
+}
+
 TEST_F(ModelTruths, say_nothing_of_the_height_of_a_wall_that_is_not_there) {
   const auto made = truth(box("a", 0, 12, 6, true, false) + box("b", 12, 24, 9));
   ASSERT_EQ(made.truth.party_walls.size(), 1U);

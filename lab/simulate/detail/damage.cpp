@@ -54,6 +54,16 @@ auto unmatched(const Surface& surface, const ScanOptions& options, std::uint64_t
   return below;
 }
 
+/// Per vertex: its share of the area of the roof triangles around it, m².
+auto roof_areas(const geometry::Mesh& mesh, const std::vector<Label>& labels) -> std::vector<double> {
+  std::vector<double> areas(mesh.vertices.size(), 0);
+  for (std::size_t t = 0; t < labels.size(); ++t) {
+    if (labels[t].kind != Class::roof) continue;
+    for (const auto v : mesh.triangles[t]) areas[v] += area_of(mesh, mesh.triangles[t]) / 3;
+  }
+  return areas;
+}
+
 void lose_crumbs(const geometry::Mesh& mesh, std::vector<bool>& lost) {
   constexpr std::uint32_t crumb = 40;  // triangles
   base::DisjointSets together(mesh.vertices.size());
@@ -102,19 +112,48 @@ auto visibility(const geometry::Mesh& mesh, const std::vector<Point3>& normals, 
   return seen;
 }
 
-void roughen(geometry::Mesh& mesh, const std::vector<Point3>& normals, const std::vector<double>& seen,
-             const ScanOptions& options, std::uint64_t seed) {
-  const Noise noise(seed, options.noise_length), bulge(seed + 2, options.bulge_length);
+auto roughen(geometry::Mesh& mesh, const std::vector<Point3>& normals, const std::vector<double>& seen,
+             const std::vector<Label>& labels, const ScanOptions& options, std::uint64_t seed) -> Roughness {
+  const auto weights = roof_areas(mesh, labels);
+  const bool independent = options.noise_length <= 0;
+  const Noise noise(seed, independent ? 1 : options.noise_length), bulge(seed + 2, options.bulge_length);
+  struct Moved {
+    double noise = 0, bulge = 0;  // along the normal
+  };
+  std::vector<Moved> moved(mesh.vertices.size());
   each_vertex(mesh.vertices.size(), [&](std::size_t v) {
     const Point3 p = mesh.vertices[v];
     // In 2.5-D nothing moves sideways: a height is measured, not a surface.
     const Point3 along = options.height_field ? Point3{0, 0, 1} : normals[v];
     const double upright = options.height_field ? 0 : 1 - std::abs(normals[v].z);
-    const double unsure = 2 - seen[v];
-    double by = options.noise > 0 ? options.noise * unsure * noise.at(p) : 0;
-    if (options.bulge > 0 && upright > 0) by += options.bulge * unsure * upright * bulge.at(p);
+    const double unsure = (1 + options.noise_hidden) - options.noise_hidden * seen[v];
+    double by = 0;
+    if (options.noise > 0 && independent) {
+      auto random = random_of(seed, v);
+      by = options.noise * unsure * near_normal(random);
+    } else if (options.noise > 0) {
+      by = options.noise * unsure * noise.at(p);
+    }
+    const double facing = dot(along, normals[v]);
+    moved[v].noise = facing * by;
+    if (options.bulge > 0 && upright > 0) {
+      const double wave = options.bulge * unsure * upright * bulge.at(p);
+      by += wave;
+      moved[v].bulge = facing * wave;
+    }
     mesh.vertices[v] = p + by * along;
   });
+  double area = 0;
+  Roughness sums;
+  for (std::size_t v = 0; v < moved.size(); ++v) {
+    const auto [by, wave] = moved[v];
+    area += weights[v];
+    sums.noise += weights[v] * by * by;
+    sums.bulge += weights[v] * wave * wave;
+    sums.both += weights[v] * (by + wave) * (by + wave);
+  }
+  if (area <= 0) return {};
+  return {std::sqrt(sums.noise / area), std::sqrt(sums.bulge / area), std::sqrt(sums.both / area)};
 }
 
 auto losses(const geometry::Mesh& mesh, const std::vector<Label>& labels, const std::vector<double>& seen,

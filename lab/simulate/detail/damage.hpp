@@ -15,10 +15,14 @@ namespace mansard::simulate::detail {
 [[nodiscard]] auto visibility(const geometry::Mesh& mesh, const std::vector<geometry::Point3>& normals, double tilt,
                               const base::Run& run) -> std::vector<double>;
 
-/// Moves the vertices along their normals: noise everywhere and a longer wave of walls, both up to twice as strong
-/// where few cameras see.
-void roughen(geometry::Mesh& mesh, const std::vector<geometry::Point3>& normals, const std::vector<double>& seen,
-             const ScanOptions& options, std::uint64_t seed);
+/// How far roofs were moved along their normals: root mean squares over their area, metres.
+struct Roughness {
+  double noise = 0, bulge = 0, both = 0;
+};
+/// Moves the vertices along their normals: noise everywhere and a longer wave of what is steep, both stronger by up to
+/// `noise_hidden` where few cameras see.
+auto roughen(geometry::Mesh& mesh, const std::vector<geometry::Point3>& normals, const std::vector<double>& seen,
+             const std::vector<Label>& labels, const ScanOptions& options, std::uint64_t seed) -> Roughness;
 
 /// Marks what is lost: walls that were not matched, and holes where few cameras see, first of all low down.
 [[nodiscard]] auto losses(const geometry::Mesh& mesh, const std::vector<Label>& labels, const std::vector<double>& seen,

@@ -20,19 +20,13 @@ constexpr double superstructure = 2.5;  // m; a base so far over the building's 
 
 /// Places at the feet of the buildings: corners of their bases, and points along the sides.
 auto feet_of(const Surface& surface) -> std::vector<Point3> {
-  std::map<std::uint32_t, double> lowest;
   const auto& mesh = surface.mesh;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const auto v : mesh.triangles[t]) {
-      const auto [at, fresh] = lowest.emplace(surface.buildings[t], mesh.vertices[v].z);
-      if (!fresh) at->second = std::min(at->second, mesh.vertices[v].z);
-    }
+  const auto grounded = on_ground(surface);
   std::vector<Point3> feet;
   constexpr double apart = 4.0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (surface.classes[t] != Class::ground) continue;
+    if (!grounded[t]) continue;
     const auto& corners = mesh.triangles[t];
-    if (mesh.vertices[corners[0]].z > lowest[surface.buildings[t]] + superstructure) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const Point3 a = mesh.vertices[corners[i]], b = mesh.vertices[corners[(i + 1) % 3]];
       const auto pieces = std::max(1.0, std::round(length(b - a) / apart));
@@ -192,6 +186,21 @@ void add_chimneys(std::vector<Object>& objects, const Surface& surface, const Sc
 }
 
 }  // namespace
+
+auto on_ground(const Surface& surface) -> std::vector<bool> {
+  std::map<std::uint32_t, double> lowest;
+  const auto& mesh = surface.mesh;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const auto v : mesh.triangles[t]) {
+      const auto [at, fresh] = lowest.emplace(surface.buildings[t], mesh.vertices[v].z);
+      if (!fresh) at->second = std::min(at->second, mesh.vertices[v].z);
+    }
+  std::vector<bool> out(mesh.triangles.size());
+  for (std::size_t t = 0; t < out.size(); ++t)
+    out[t] = surface.classes[t] == Class::ground &&
+             mesh.vertices[mesh.triangles[t][0]].z <= lowest[surface.buildings[t]] + superstructure;
+  return out;
+}
 
 Terrain::Terrain(const Surface& surface, const Box2& area, const ScanOptions& options, std::uint64_t seed)
     : origin_(area.least),

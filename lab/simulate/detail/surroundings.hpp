@@ -11,6 +11,9 @@
 
 namespace mansard::simulate::detail {
 
+/// Per triangle: whether it is a base of a building on the ground, and not one on top of another part.
+[[nodiscard]] auto on_ground(const Surface& surface) -> std::vector<bool>;
+
 /// Ground that passes by the foot of every building, smooth in between, with bumps.
 class Terrain {
  public:

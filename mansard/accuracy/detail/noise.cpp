@@ -143,8 +143,8 @@ auto Cells::residuals(std::span<const Point2> places, double ground) const -> st
       if (sums.count < static_cast<double>(full)) continue;
       const Point2 centre{sums.x / sums.count, sums.y / sums.count};
       const auto equations = sums.centred();
-      const bool even = length(centre) <= off_centre * radius &&
-                        equations.determinant() > 0.05 * equations.xx * equations.yy;
+      const bool even =
+          length(centre) <= off_centre * radius && equations.determinant() > 0.05 * equations.xx * equations.yy;
       if (!even) continue;
       const Point2 slope = equations.slopes();
       const double rest = zz - sums.z * sums.z / sums.count - slope.x * equations.xz - slope.y * equations.yz;

@@ -14,9 +14,9 @@ namespace {
 
 using geometry::Point2;
 
-constexpr double least_edge = 2;       // m
+constexpr double least_edge = 2;  // m
 constexpr double most_transects = 400;
-constexpr double spacing = 1;          // m along an edge, at least
+constexpr double spacing = 1;                               // m along an edge, at least
 constexpr double inner = 1.25, deep = 2.75, sample = 0.25;  // m inside: where the roof is taken
 constexpr double near = 1.5, far = 2.5;                     // m outside: where the ground is
 constexpr double reach_in = 1, reach_out = 1.5;             // m from the edge: where the roof may end
@@ -138,8 +138,8 @@ auto across(std::span<const geometry::Polygon> outline, const rays::Scene& scene
     out.edges.push_back({-1.0 * geometry::left_of(normalised(along)), l});
     const auto count = static_cast<std::size_t>(std::max(1.0, std::floor(l / apart)));
     for (std::size_t k = 0; k < count; ++k)
-      places.push_back({out.edges.size() - 1,
-                        edge.start + ((static_cast<double>(k) + 0.5) / static_cast<double>(count)) * along});
+      places.push_back(
+          {out.edges.size() - 1, edge.start + ((static_cast<double>(k) + 0.5) / static_cast<double>(count)) * along});
   }
   std::vector<std::optional<Transect>> found(places.size());
   base::parallel_for(places.size(), [&](std::size_t i) {

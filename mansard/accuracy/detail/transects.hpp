@@ -16,9 +16,9 @@ inline constexpr std::array<double, 8> depths{0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6
 
 struct Transect {
   std::size_t edge = 0;
-  double outside = 0;                          ///< m; how far outside of the footprint's edge the roof ends
-  std::array<double, depths.size()> fall{};    ///< m below the roof's plane, at `depths`
-  double walls = 0;                            ///< share of the wall's height near which the scan has a surface
+  double outside = 0;                        ///< m; how far outside of the footprint's edge the roof ends
+  std::array<double, depths.size()> fall{};  ///< m below the roof's plane, at `depths`
+  double walls = 0;                          ///< share of the wall's height near which the scan has a surface
 };
 struct Edge {
   geometry::Point2 outward;  ///< unit

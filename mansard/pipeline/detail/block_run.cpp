@@ -107,7 +107,8 @@ auto raise_parts(const segment::Segmentation& segmentation, const Shown& shown, 
     part_of_draft.push_back(i);
     drafts.push_back({feature, fitted[i].plan, fitted[i].caps, fitted[i].alternatives});
   }
-  auto refined = refine::refine(drafts, mesh, refining_of(options, out.report.accuracy), with_grid(options.extrude), run, shown.above());
+  auto refined = refine::refine(drafts, mesh, refining_of(options, out.report.accuracy), with_grid(options.extrude),
+                                run, shown.above());
   for (auto& from : refined.parts) {
     PartResult part;
     part.feature = from.owner;

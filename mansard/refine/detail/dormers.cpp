@@ -393,7 +393,8 @@ auto dormers_on(const Judged& judged, const Site& site, const Options& options, 
         if (auto dormer = best_box(island, slope, judged, site, above, where, options))
           found.push_back(std::move(*dormer));
       }
-  rank(found, [](const Dormer& dormer) { return -dormer.gain; }, options.same_cost);
+  rank(
+      found, [](const Dormer& dormer) { return -dormer.gain; }, options.same_cost);
   std::vector<Dormer> out;
   for (auto& dormer : found) {
     if (std::ranges::all_of(out, [&](const Dormer& other) { return apart(dormer, other, site.measured.spacing); }))

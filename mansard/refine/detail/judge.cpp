@@ -41,7 +41,8 @@ void losses_of(std::size_t count, const Kernel& kernel, const std::array<const d
 
 auto Judge::misfit_of(const std::vector<double>& z, double cap, double most) const -> double {
   // The heights as the scan would have them, smoothed as it was measured to smooth. Else a slope would suit the scan of
-  // a step better than the step. A sample past the solid (its outline is rounded by some millimetres) falls to its base.
+  // a step better than the step. A sample past the solid (its outline is rounded by some millimetres) falls to its
+  // base.
   const auto& grid = site_.measured;
   auto& [heights, sums, losses] = scratch();
   heights.assign(grid.columns + 2 * blur_reach, 0);

@@ -95,7 +95,8 @@ class Pieces {
         else pair->*was = true;
       });
       std::erase_if(fresh, [](const Fresh& one) { return !one.pair->both; });
-      rank(fresh, [](const Fresh& one) { return -one.promise; }, work_.options().same_cost);
+      rank(
+          fresh, [](const Fresh& one) { return -one.promise; }, work_.options().same_cost);
       std::vector<bool> taken(pieces_.size(), false);
       std::erase_if(fresh, [&](const Fresh& one) {
         if (taken[one.i] || taken[one.j]) return true;

@@ -83,7 +83,8 @@ class Cuts {
   /// Best first, none nearly the same as a better one.
   [[nodiscard]] auto best() && -> std::vector<Cut> {
     std::ranges::stable_sort(found_, {}, [](const Cut& cut) { return cut.polygon.outer; });
-    rank(found_, [](const Cut& cut) { return -cut.ranked; }, options_.same_cost);
+    rank(
+        found_, [](const Cut& cut) { return -cut.ranked; }, options_.same_cost);
     std::vector<Cut> out;
     for (Cut& cut : found_) {
       if (std::ssize(out) >= options_.cuts.max_count) break;
@@ -306,7 +307,8 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
     std::string what = words_for(as_measured, cut, options);
     out.push_back({std::move(piece), cut.gain, cut.errors.inside_mean, std::move(what), cut.shape == 0});
   }
-  rank(out, [](const Proposal& proposal) { return -proposal.gain; }, options.same_cost);
+  rank(
+      out, [](const Proposal& proposal) { return -proposal.gain; }, options.same_cost);
   return out;
 }
 

@@ -109,7 +109,8 @@ auto supported(Judged judged, const Judge& judge) -> Judged {
     });
     std::optional<Judged> best;
     for (auto& next : each)
-      if (next && cheaper(next->cost, best ? best->cost : judged.cost, judge.options().same_cost)) best = std::move(*next);
+      if (next && cheaper(next->cost, best ? best->cost : judged.cost, judge.options().same_cost))
+        best = std::move(*next);
     if (!best) break;
     judged = std::move(*best);
   }

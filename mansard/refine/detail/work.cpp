@@ -152,7 +152,8 @@ auto Work::into_wings(const Piece& piece, double least_gain) const -> std::vecto
     const double about = misfit_about(piece, wing.middle, wing.length);
     if (about >= least_gain) wings.push_back({std::move(wing.polygon), about, 0, "a wing", true});
   }
-  rank(wings, [](const Proposal& wing) { return -wing.gain; }, options_.same_cost);
+  rank(
+      wings, [](const Proposal& wing) { return -wing.gain; }, options_.same_cost);
   const auto most = static_cast<std::size_t>(options_.wings.max_cuts);
   if (wings.size() > most) wings.resize(most);
   return cheapest(piece, wings, piece.roof.cost);
@@ -276,7 +277,8 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
   const auto consider = [&](base::Result<Judged> roof, const Site& without) {
     if (!roof) return;
     const auto [dormers, cost] = dormers_of(*roof, all);
-    if (dormers.empty() || (best && !cheaper(cost, best->cost, options_.same_cost)) || !is_sound(raised(roof->plan))) return;
+    if (dormers.empty() || (best && !cheaper(cost, best->cost, options_.same_cost)) || !is_sound(raised(roof->plan)))
+      return;
     better = better || !best || cost < best->cost - options_.dormers.price;
     best = Found{std::move(*roof), without, cost};
   };
@@ -305,9 +307,9 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
   if (!best || !cheaper(best->cost, most, options_.same_cost)) return std::nullopt;
   auto sharp = sharpened(best->roof, Judge(best->without, options_, raising_, run_));
   if (sharp.plan != best->roof.plan)
-    if (const auto [dormers, cost] = dormers_of(sharp, all); !dormers.empty() &&
-                                                             cost <= best->cost + options_.face_price &&
-                                                             cheaper(cost, most, options_.same_cost) && is_sound(raised(sharp.plan)))
+    if (const auto [dormers, cost] = dormers_of(sharp, all);
+        !dormers.empty() && cost <= best->cost + options_.face_price && cheaper(cost, most, options_.same_cost) &&
+        is_sound(raised(sharp.plan)))
       best->roof = std::move(sharp);
   Piece out = piece;
   out.roof = std::move(best->roof);
