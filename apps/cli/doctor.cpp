@@ -11,6 +11,7 @@
 #include "apps/cli/scan.hpp"
 #include "apps/cli/shell_word.hpp"
 #include "apps/cli/verbs.hpp"
+#include "mansard/accuracy/accuracy.hpp"
 #include "mansard/pipeline/placing.hpp"
 
 namespace mansard::cli {
@@ -67,6 +68,13 @@ auto inputs_of(const DoctorRequest& request, const pipeline::Options& options, c
                  (more.empty() ? "mesh and footprints match: " : "mesh and footprints match with " + more + ": ") +
                      pipeline::reason_in_words(**placing),
                  command_of(paths, request.settings, more)});
+  if (more.empty()) {
+    const auto scan = pipeline::accuracy_of_scan(paths, options, run);
+    if (!scan && scan.error().code == "cancelled") return scan.failure();
+    if (scan) all.push_back({Found::fine, "accuracy", accuracy::in_a_sentence(*scan), ""});
+    else
+      for (const auto& why : scan.errors()) all.push_back({Found::problem, "accuracy", base::to_string(why), ""});
+  }
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "apps/cli/info.hpp"
+#include "mansard/accuracy/accuracy.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/citygml_made_by.hpp"
@@ -38,6 +39,17 @@ auto warnings_json(const std::vector<base::Diagnostic>& warnings) -> Json {
   Json out = Json::array();
   for (const auto& warning : warnings) out.push_back({{"code", warning.code}, {"message", warning.message}});
   return out;
+}
+
+/// What is measured of the noise of a scan; null where that is nothing.
+auto accuracy_json(const model::Accuracy& scan) -> Json {
+  if (scan.windows == 0) return nullptr;
+  Json words = Json::object();
+  for (const auto& [name, value] : accuracy::in_words(scan)) words[name] = value;
+  return {{"noise_m", scan.noise},
+          {"correlated_area_m2", scan.correlated_area},
+          {"spacing_m", scan.spacing},
+          {"words", std::move(words)}};
 }
 
 // ---- models of other producers
@@ -144,6 +156,7 @@ auto info_of_mesh(const fs::path& path, const base::Run& run) -> base::Result<Js
   Extent3 extent;
   for (const auto p : mesh->mesh.vertices) extent.add(p, {});
   out["extent"] = extent.json();
+  out["accuracy"] = accuracy_json(accuracy::measure_alone(mesh->mesh));
   const auto& c = mesh->counts;
   out["counts"] = {{"triangles", c.triangles},
                    {"vertices", c.vertices},
@@ -181,9 +194,13 @@ auto info_of_points(const fs::path& path, const base::Run& run) -> base::Result<
     geometry::Box3 box;
     std::array<std::uint64_t, 256> classes{};
     std::uint64_t withheld = 0, not_finite = 0, last_returns = 0;
+    std::vector<geometry::Point3> buildings, others;  ///< some pieces: what noise is measured of
     std::optional<base::Failure> failure;
   };
   std::vector<Piece> pieces(cloud.pieces());
+  // Neighbours are mostly in one piece; so many of them are enough for the noise.
+  constexpr std::uint64_t enough = 2'000'000;
+  const std::size_t every = static_cast<std::size_t>(info.points / enough) + 1;
   base::parallel_for(pieces.size(), [&](std::size_t i) {
     auto& piece = pieces[i];
     const auto points = cloud.read(i);
@@ -199,6 +216,12 @@ auto info_of_points(const fs::path& path, const base::Run& run) -> base::Result<
       const bool finite = std::isfinite(p.position.x) && std::isfinite(p.position.y) && std::isfinite(p.position.z);
       if (finite) piece.box.add(p.position);
       else ++piece.not_finite;
+      if (!finite || p.withheld || i % every != 0 || info.unit <= 0) continue;
+      const auto in_metres = [&] {
+        return geometry::Point3{info.unit * p.position.x, info.unit * p.position.y, info.unit * p.position.z};
+      };
+      if (p.classification == 6) piece.buildings.push_back(in_metres());
+      else if (p.classification < 3 && p.returns <= 1) piece.others.push_back(in_metres());
     }
   });
   if (run.cancelled()) return base::error("cancelled", "stopped on request");
@@ -211,12 +234,18 @@ auto info_of_points(const fs::path& path, const base::Run& run) -> base::Result<
     all.last_returns += piece.last_returns;
     for (std::size_t c = 0; c < all.classes.size(); ++c) all.classes[c] += piece.classes[c];
   }
+  std::vector<geometry::Point3> surface;
+  for (auto part : {&Piece::buildings, &Piece::others}) {
+    for (const auto& piece : pieces) surface.insert(surface.end(), (piece.*part).begin(), (piece.*part).end());
+    if (!surface.empty()) break;  // of roofs, where they are known
+  }
   Json out = head(path, "points", info.format);
   if (info.point_format >= 0) out["point_format"] = info.point_format;
   out["crs"] = info.crs_title;
   out["extent"] = nullptr;
   if (!all.box.empty())
     out["extent"] = {all.box.least.x, all.box.least.y, all.box.least.z, all.box.most.x, all.box.most.y, all.box.most.z};
+  out["accuracy"] = accuracy_json(accuracy::noise_of(std::move(surface)));
   Json counts{{"points", info.points},
               {"last_returns", all.last_returns},
               {"withheld", all.withheld},

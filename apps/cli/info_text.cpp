@@ -231,6 +231,12 @@ auto info_text(const Json& info) -> std::string {
   if (info.contains("header") && info["header"] != "") lines.add("header", info["header"].get<std::string>());
   if (info.contains("crs")) lines.add("CRS", info["crs"] == "" ? "none" : info["crs"].get<std::string>());
   if (info.contains("extent") && !info["extent"].is_null()) lines.add("extent", extent_in_words(info["extent"]));
+  if (info.contains("accuracy") && !info["accuracy"].is_null()) {
+    std::string words;
+    for (const auto& [name, value] : info["accuracy"]["words"].items())
+      words += (words.empty() ? "" : "; ") + name + " " + value.get<std::string>();
+    lines.add("accuracy", words);
+  }
   if (info.contains("columns")) add_raster(info, lines);
   if (info.contains("counts")) add_counts(info["counts"], lines);
   if (info.contains("outcomes")) lines.add("outcomes", counted(info["outcomes"]));

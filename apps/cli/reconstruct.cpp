@@ -14,6 +14,7 @@
 #include "apps/cli/scan.hpp"
 #include "apps/cli/terrain.hpp"
 #include "apps/cli/verbs.hpp"
+#include "mansard/accuracy/accuracy.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/pipeline/scan_pieces.hpp"
@@ -40,6 +41,9 @@ auto summarise(const Made& made, const ReconstructRequest& request, Progress& pr
     progress.say(reuse);
   const auto& n = made.outcomes;
   progress.say(in_words(n));
+  std::vector<model::Accuracy> scans;
+  for (const auto& block : made.summary.blocks) scans.push_back(block.accuracy);
+  if (!scans.empty()) progress.say("accuracy of the scan: " + accuracy::in_a_sentence(accuracy::combined(scans)));
   const auto& scores = made.summary.scores;
   progress.say("vertical error against the scan (RMSE): " + base::to_text(std::sqrt(scores.footprint_mse), 2) +
                " m over the footprints, " + base::to_text(std::sqrt(scores.mse), 2) + " m with the ground around them");

@@ -58,8 +58,9 @@ auto places_over(std::span<const geometry::Polygon> outline, double most) -> std
   const Point2 size = box.most - box.least;
   const double apart = std::max(finest, std::sqrt(size.x * size.y / most));
   std::vector<Point2> out;
-  for (double y = (std::floor(box.least.y / apart) + 0.5) * apart; y < box.most.y; y += apart)
-    for (double x = (std::floor(box.least.x / apart) + 0.5) * apart; x < box.most.x; x += apart) {
+  const Point2 first{std::floor(box.least.x), std::floor(box.least.y)};  // a shift by whole metres moves all of them
+  for (double y = first.y + apart / 2; y < box.most.y; y += apart)
+    for (double x = first.x + apart / 2; x < box.most.x; x += apart) {
       const Point2 at{x, y};
       const auto near = [&](const geometry::Polygon& polygon) {
         return geometry::bounds(polygon.outer).grown(beside).contains(at) &&
@@ -136,12 +137,21 @@ auto measure(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<con
   return out;
 }
 
-auto noise_of(std::span<const Point3> points, std::span<const std::uint32_t> indices) -> model::Accuracy {
+auto measure_alone(const geometry::Mesh& mesh) -> model::Accuracy {
   model::Accuracy out;
+  const detail::Cells cells(roof_vertices(mesh));
   std::vector<Point2> places;
-  for (const auto i : indices) places.push_back(xy(points[i]));
-  std::ranges::sort(places);
-  put_noise(detail::Cells({points.begin(), points.end()}), thinned(places, most_places), out);
+  for (const Point3 v : thinned(cells.points(), most_places)) places.push_back(xy(v));
+  put_noise(cells, places, out);
+  return out;
+}
+
+auto noise_of(std::vector<Point3> points) -> model::Accuracy {
+  model::Accuracy out;
+  const detail::Cells cells(std::move(points));
+  std::vector<Point2> places;
+  for (const Point3 p : thinned(cells.points(), most_places)) places.push_back(xy(p));
+  put_noise(cells, places, out);
   out.blur = 0;
   return out;
 }

@@ -7,6 +7,8 @@
 
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "mansard/base/options.hpp"
@@ -37,12 +39,18 @@ struct Options {
 [[nodiscard]] auto measure(const geometry::Mesh& mesh, const rays::Scene& scene,
                            std::span<const geometry::Polygon> outline, const Options& options = {}) -> model::Accuracy;
 
-/// Noise, correlated area and spacing of points of single surfaces, seen from above: laser points of roofs. `places`:
-/// indices of the points around which they are measured.
-[[nodiscard]] auto noise_of(std::span<const geometry::Point3> points, std::span<const std::uint32_t> places)
-    -> model::Accuracy;
+/// Noise, correlated area and spacing of a mesh alone, over all of it; `edges` and `transects` are 0.
+[[nodiscard]] auto measure_alone(const geometry::Mesh& mesh) -> model::Accuracy;
+
+/// The same of points of single surfaces, seen from above: laser points of roofs.
+[[nodiscard]] auto noise_of(std::vector<geometry::Point3> points) -> model::Accuracy;
 
 /// Of several scans, or blocks of one, what they are together: by what each was measured from.
 [[nodiscard]] auto combined(std::span<const model::Accuracy> all) -> model::Accuracy;
+
+/// In the terms of the field: a name and a value with its unit each, of what was measured.
+[[nodiscard]] auto in_words(const model::Accuracy& scan) -> std::vector<std::pair<std::string, std::string>>;
+/// The same as one sentence, without a full stop.
+[[nodiscard]] auto in_a_sentence(const model::Accuracy& scan) -> std::string;
 
 }  // namespace mansard::accuracy

@@ -37,7 +37,7 @@ enum class Buildings : std::uint8_t {
 
 struct Options {
   double cell = 0;                               ///< m; side of a cell; 0: from the density
-  double points_per_cell = 1.2;                  ///< of the density that a cell must hold at least
+  double points_per_cell = 1.1;                  ///< of the density that a cell must hold at least
   double points_per_large_cell = 2;              ///< the same of cells of 1 m and more
   double minimum_cell = 0.25, maximum_cell = 2;  ///< m
   Buildings buildings = Buildings::automatic;

@@ -4,7 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "mansard/accuracy/accuracy.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/block/block.hpp"
 #include "mansard/crs/candidates.hpp"
 #include "mansard/ingest/model.hpp"
 
@@ -110,6 +112,20 @@ auto find_placing(const InputPaths& paths, const Options& options, const base::R
   placing.offset[0] += match->x;
   placing.offset[1] += match->y;
   return std::optional(placing);
+}
+
+auto accuracy_of_scan(const InputPaths& paths, const Options& options, const base::Run& run, std::size_t most_blocks)
+    -> base::Result<model::Accuracy> {
+  const auto scene = read_inputs(paths, options, run);
+  if (!scene) return scene.failure();
+  const block::Partition blocks(*scene, options.block, run);
+  const std::size_t every = std::max<std::size_t>(1, (blocks.size() + most_blocks - 1) / most_blocks);
+  std::vector<model::Accuracy> all;
+  for (std::size_t i = 0; i < blocks.size() && !run.cancelled(); i += every) {
+    const auto own = block::in_own_frame(blocks.make(i));
+    all.push_back(accuracy::measure(own.block.mesh, rays::Scene(own.block.mesh), own.block.outline, options.accuracy));
+  }
+  return accuracy::combined(all);
 }
 
 }  // namespace mansard::pipeline

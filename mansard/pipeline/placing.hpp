@@ -35,4 +35,9 @@ inline constexpr double least_met = 0.5;
 [[nodiscard]] auto find_placing(const InputPaths& paths, const Options& options, const base::Run& run = {})
     -> base::Result<std::optional<Placing>>;
 
+/// The accuracy of a scan over its footprints, of at most so many of its blocks, evenly. Reads all of the mesh. Fails
+/// as read_inputs does.
+[[nodiscard]] auto accuracy_of_scan(const InputPaths& paths, const Options& options, const base::Run& run = {},
+                                    std::size_t most_blocks = 24) -> base::Result<model::Accuracy>;
+
 }  // namespace mansard::pipeline

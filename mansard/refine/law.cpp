@@ -11,8 +11,9 @@ namespace {
 /// sides carry roof.
 constexpr double numbers_of_face = 3, numbers_of_part = 20;
 
-/// m²: the ground that one number is fitted to, for n = F / A in ½ ln n: a roof of a house. It counts by its logarithm.
-constexpr double roof = 100;
+/// m²: the ground that one number is fitted to, for n = F / A in ½ ln n: a roof plane of a house. It counts by its
+/// logarithm.
+constexpr double roof_plane = 50;
 
 /// The share of the smallest detail that one number of it pays: a part on it is nine or ten faces and an outline, fifty
 /// numbers; so much is left where the detail is half explained by the roof around it.
@@ -35,7 +36,7 @@ constexpr double least_robust = 0.02;
 }  // namespace
 
 auto decided_by(Options o, const model::Accuracy& scan) -> Options {
-  const double independent = std::max(2.0, roof / scan.correlated_area);
+  const double independent = std::max(2.0, roof_plane / scan.correlated_area);
   const double by_noise = o.significance * scan.chance() * std::log(independent);
   const double by_detail = number_of_detail * o.detail * o.detail * o.least_area;
   const double number = std::max(by_noise, by_detail);

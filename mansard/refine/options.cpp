@@ -7,17 +7,12 @@ using base::OptionList;
 using base::Range;
 
 constexpr const char* by_hand = "chosen by hand; not measured";
-constexpr const char* decision_8 = "docs/decisions/0008-cap-by-measured-error.md";
 constexpr const char* decision_14 = "docs/decisions/0014-refined-by-measured-error.md";
-constexpr const char* decision_16 = "docs/decisions/0016-roof-steps.md";
 constexpr const char* decision_17 = "docs/decisions/0017-setbacks-by-measured-error.md";
 constexpr const char* decision_39 = "docs/decisions/0039-alike-what-is-alike.md";
 constexpr const char* decision_41 = "docs/decisions/0041-faces-want-evidence.md";
 constexpr const char* decision_87 = "docs/decisions/0087-dormers-by-default.md";
-constexpr const char* decision_47 = "docs/decisions/0047-moderate-detail.md";
-constexpr const char* decision_86 = "docs/decisions/0086-tall-parts-and-crowns.md";
 
-constexpr Range share{0, 1};                 // of a whole, or a cosine
 constexpr Range count{0, 1000};              // things; none switches the step off
 constexpr Range some{1, 1000};               // things, of which there must be one
 constexpr Range length{0, 100};              // m
@@ -91,8 +86,6 @@ void add_refit(OptionList& list, Options::Refit& o) {
               "A profile whose knot would move farther than this stays as it is.")
       .advanced(by_hand);
 }
-
-void add_search(OptionList& list, Options::Search& o) {}
 
 void add_sharpen(OptionList& list, Options::Sharpen& o) {
   list.number(
@@ -239,10 +232,7 @@ void add_regions(OptionList& list, Options::Regions& o) {
       .advanced(by_hand);
 }
 
-void add_rectangles(OptionList& list, Options::Outlines& o) {}
-
 void add_outlines(OptionList& list, Options::Outlines& o) {
-  add_rectangles(list, o);
   list.number("outlines_min_contrast", o.min_contrast, "m", height,
               "A wall is moved to a step where the roofs on both sides differ by at least this.")
       .advanced(by_hand)
@@ -288,7 +278,6 @@ auto option_list(Options& o) -> OptionList {
   add_mansard(list, o.mansard);
   add_setback(list, o.setback);
   add_refit(list, o.refit);
-  add_search(list, o.search);
   add_sharpen(list, o.sharpen);
   add_alike(list, o.alike);
   add_pieces(list, o.pieces);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "mansard/accuracy/accuracy.hpp"
 #include "mansard/report/report.hpp"
 
 namespace mansard::report {
@@ -242,7 +243,12 @@ RunJson::RunJson(const Summary& s, const Outcomes& outcomes, const model::MadeBy
   const bool scanned = has_mesh(scene);
   out["counts"] = {{"footprints", outcomes.all()}, {"full", outcomes.full},       {"fallback", outcomes.fallback},
                    {"covered", outcomes.covered},  {"refused", outcomes.refused}, {"blocks", s.blocks.size()}};
-  if (scanned) out["scores"] = json_of(s.scores);
+  if (scanned) {
+    out["scores"] = json_of(s.scores);
+    std::vector<model::Accuracy> all;
+    for (const auto& block : s.blocks) all.push_back(block.accuracy);
+    if (!all.empty()) out["accuracy"] = json_of(accuracy::combined(all));
+  }
   out["times"] = json_of(s.times);
   if (s.reuse.blocks > 0 || !s.reuse.made.empty())
     out["times"]["reuse"] = json_of(s.reuse, s.blocks.empty() ? "tasks" : "blocks");

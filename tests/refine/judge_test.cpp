@@ -105,8 +105,8 @@ TEST_F(Judging, tells_what_is_cheaper_as_the_costs_do) {
         const auto judged = judge()(at);
         const auto with = judge(known);
         for (const double share : {0.01, 0.5, 0.9, 1.0}) EXPECT_FALSE(with.cheaper(at, share * judged->cost));
-        EXPECT_FALSE(with.cheaper(at, judged->cost + 0.5 * refine::detail::same_cost));
-        const auto cheaper = with.cheaper(at, judged->cost + 2 * refine::detail::same_cost);
+        EXPECT_FALSE(with.cheaper(at, judged->cost + 0.5 * refine::Options().same_cost));
+        const auto cheaper = with.cheaper(at, judged->cost + 2 * refine::Options().same_cost);
         ASSERT_TRUE(cheaper);
         expect_same(*cheaper, *judged);
       }

@@ -26,8 +26,8 @@ constexpr double least_share = 0.15;  // of the places
 constexpr double off_centre = 0.25;   // of the radius: the disc is cut off by an edge
 
 /// Discs over ridges, steps and clutter have more than noise; those below the quantile have noise alone where at least
-/// a fifth of all is even. Where three quarters are, it is the quantile of `even_quantile` of those.
-constexpr double quantile = 0.1, even_quantile = 0.13;
+/// a fifth of all is even. Where five sixths are, it is the quantile of `even_quantile` of those.
+constexpr double quantile = 0.1, even_quantile = 0.12;
 
 constexpr double pi = std::numbers::pi;
 
@@ -46,7 +46,7 @@ auto between(const std::array<double, 11>& values, double at) -> double {
 
 /// The quantile of χ² over its degrees of freedom (Wilson and Hilferty 1931).
 auto chi_square_share(double degrees) -> double {
-  constexpr double z = -1.1264;  // of the normal distribution at `even_quantile`
+  constexpr double z = -1.1750;  // of the normal distribution at `even_quantile`
   const double s = 2 / (9 * degrees), root = 1 - s + z * std::sqrt(s);
   return std::max(1e-3, root * root * root);
 }
@@ -179,7 +179,8 @@ auto noise_from(std::span<const Residual> residuals, double ground) -> std::opti
   }
   const auto kept = residuals.first(count);
   // ln V − ln model by correlation length; what is above the model may be structure, and counts less.
-  constexpr double above = 0.6, shortest = 0.01;  // the last: a length says nothing that is longer without need
+  constexpr double above = 0.6;
+  constexpr double as_good = 0.08;  // of (ln V)²: independent noise is believed where some 10 % of each V are unexplained
   const double white = std::sqrt(ground / (2 * pi));
   Noise best;
   double least = std::numeric_limits<double>::infinity();
@@ -187,7 +188,8 @@ auto noise_from(std::span<const Residual> residuals, double ground) -> std::opti
     std::vector<double> off;
     for (const auto& one : kept) {
       const double t = one.radius / length;
-      off.push_back(std::log(one.squared / (left_by_plane(t) * chi_square_share(degrees_of_freedom(t)))));
+      const double freedom = std::min(degrees_of_freedom(t), one.samples - 3);
+      off.push_back(std::log(one.squared / (left_by_plane(t) * chi_square_share(freedom))));
     }
     for (double level : off) {
       const auto weight_of = [&](std::size_t k) {
@@ -199,9 +201,9 @@ auto noise_from(std::span<const Residual> residuals, double ground) -> std::opti
         for (std::size_t k = 0; k < off.size(); ++k) sum += weight_of(k) * off[k], weight += weight_of(k);
         level = sum / weight;
       }
-      const double longer = std::log(length / white);
-      double error = shortest * longer * longer;
+      double error = 0;
       for (std::size_t k = 0; k < off.size(); ++k) error += weight_of(k) * (off[k] - level) * (off[k] - level);
+      if (length == white && error < as_good) error = 0;
       if (error >= least) continue;
       least = error;
       best = {std::exp(level / 2), std::max(ground, 2 * pi * length * length), kept.front().discs};

@@ -54,38 +54,47 @@ auto measured(const formats::PointCloud& cloud, const base::Run& run) -> base::R
 /// nothing: 0.
 auto density_where_points_are(const formats::PointCloud& cloud, const std::optional<crs::WayOfMesh>& way,
                               const base::Run& run) -> base::Result<double> {
-  constexpr std::size_t most = 4;  // pieces; 50,000 points each in most files
-  std::vector<std::size_t> chosen;
-  for (std::size_t k = 0; k < std::min(most, cloud.pieces()); ++k)
-    chosen.push_back(k * cloud.pieces() / std::min(most, cloud.pieces()));
-  std::vector<double> densities(chosen.size(), 0);
-  std::vector<std::optional<base::Failure>> failures(chosen.size());
-  base::parallel_for(chosen.size(), [&](std::size_t i) {
-    if (run.cancelled() || cloud.box_of(chosen[i])) return;
-    const auto points = cloud.read(chosen[i]);
+  // Pieces of 50,000 points in most files. Of a file with few, all of them together: strips that overlap follow each
+  // other in it. Of others some, each for itself.
+  constexpr std::size_t few = 8, some = 4;
+  const bool together = cloud.pieces() <= few;
+  const std::size_t most = together ? cloud.pieces() : some;
+  std::vector<std::vector<std::array<double, 2>>> squares(most);
+  std::vector<std::optional<base::Failure>> failures(most);
+  base::parallel_for(most, [&](std::size_t k) {
+    const std::size_t piece = k * cloud.pieces() / most;
+    if (run.cancelled() || cloud.box_of(piece)) return;
+    const auto points = cloud.read(piece);
     if (!points) {
-      failures[i] = points.failure();
+      failures[k] = points.failure();
       return;
     }
     std::vector<Point3> positions;
     for (const auto& p : *points)
       if (finite(p.position)) positions.push_back(p.position);
-    if (positions.empty()) return;
     if (way) way->take(positions);
-    std::vector<std::array<double, 2>> squares;
-    squares.reserve(positions.size());
-    for (const auto& p : positions) squares.push_back({std::floor(p.x), std::floor(p.y)});
-    std::ranges::sort(squares);
-    std::vector<double> counts;
-    for (auto at = squares.begin(); at != squares.end();) {
-      const auto end = std::upper_bound(at, squares.end(), *at);
-      counts.push_back(static_cast<double>(end - at));
-      at = end;
-    }
-    densities[i] = base::median(std::move(counts));
+    squares[k].reserve(positions.size());
+    for (const auto& p : positions) squares[k].push_back({std::floor(p.x), std::floor(p.y)});
   });
   for (const auto& failure : failures)
     if (failure) return *failure;
+  if (together) {
+    std::vector<std::array<double, 2>> all;
+    for (const auto& piece : squares) all.insert(all.end(), piece.begin(), piece.end());
+    squares.assign(1, std::move(all));
+  }
+  std::vector<double> densities;
+  for (auto& piece : squares) {
+    if (piece.empty()) continue;
+    std::ranges::sort(piece);
+    std::vector<double> counts;
+    for (auto at = piece.begin(); at != piece.end();) {
+      const auto end = std::upper_bound(at, piece.end(), *at);
+      counts.push_back(static_cast<double>(end - at));
+      at = end;
+    }
+    densities.push_back(base::median(std::move(counts)));
+  }
   return densities.empty() ? 0 : base::median(std::move(densities));
 }
 
@@ -196,8 +205,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     if (clouds.size() > few) continue;
     const auto seen = density_where_points_are(*source->cloud, source->way, run);
     if (!seen) return seen.failure();
-    constexpr double cut_out = 1.5;  // a third of the box is empty; roads, water and edges alone leave less
-    if (*seen > cut_out * densities.back()) densities.back() = *seen;
+    densities.back() = std::max(densities.back(), *seen);
   }
   const auto none = [&](const std::string& what) { return base::error("ingest-points-empty", what, subject); };
   if (densities.empty()) {

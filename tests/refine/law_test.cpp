@@ -1,0 +1,56 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mansard/refine/law.hpp"
+
+namespace mansard::refine {
+namespace {
+
+auto scan(double noise, double area, double blur, double edge) -> model::Accuracy {
+  model::Accuracy out;
+  out.noise = noise, out.correlated_area = area, out.blur = blur, out.edge_noise = edge;
+  return out;
+}
+
+TEST(Law, prices_grow_with_the_variance_of_the_noise_and_the_area_of_one_error) {
+  const auto coarse = decided_by({}, scan(0.2, 10, 0.25, 0.1)), fine = decided_by({}, scan(0.1, 10, 0.25, 0.1));
+  EXPECT_DOUBLE_EQ(coarse.face_price, 4 * fine.face_price);
+  EXPECT_DOUBLE_EQ(fine.value_price, 0.1 * 0.1 * 10 * std::log(5.0));
+  EXPECT_DOUBLE_EQ(fine.face_price, 3 * fine.value_price);
+  EXPECT_GT(decided_by({}, scan(0.1, 20, 0.25, 0.1)).face_price, fine.face_price);
+}
+
+TEST(Law, of_a_perfect_scan_is_the_smallest_detail_alone) {
+  Options asked;
+  const auto small = decided_by(asked, scan(0, 1, 0, 0));
+  EXPECT_DOUBLE_EQ(small.value_price, 0.1 * 0.1 * 4 / 20);
+  asked.detail = 0.5;
+  EXPECT_DOUBLE_EQ(decided_by(asked, scan(0, 1, 0, 0)).value_price, 25 * small.value_price);
+  EXPECT_EQ(small.margin, 0);
+  EXPECT_EQ(small.samples.blur, 0);
+  EXPECT_EQ(small.samples.melt, small.grid / 2);
+  EXPECT_LT(small.same_cost, small.value_price);
+}
+
+TEST(Law, margins_are_those_of_the_scans_edges_and_leave_something_of_narrow_roofs) {
+  EXPECT_DOUBLE_EQ(decided_by({}, scan(0.03, 0.05, 0, 0.1)).margin, 0.25);
+  EXPECT_DOUBLE_EQ(decided_by({}, scan(0.03, 0.05, 0, 0.1)).samples.margin_weight, 0.05);
+  const auto blurred = decided_by({}, scan(0.1, 10, 0.8, 0.1));
+  EXPECT_EQ(blurred.margin, 0.4);
+  EXPECT_EQ(blurred.samples.melt, 0.5);
+  EXPECT_EQ(blurred.samples.blur, 0.25);
+  EXPECT_NEAR(blurred.samples.margin_weight, 0.2, 0.01);
+}
+
+TEST(Law, asks_for_more_where_the_user_does) {
+  Options asked;
+  asked.significance = 3;
+  const auto strict = decided_by(asked, scan(0.1, 10, 0.25, 0.1)), usual = decided_by({}, scan(0.1, 10, 0.25, 0.1));
+  EXPECT_DOUBLE_EQ(strict.part_price, 3 * usual.part_price);
+  asked.dormers.wanted = false;
+  EXPECT_EQ(decided_by(asked, scan(0.1, 10, 0.25, 0.1)).dormers.price, 0);
+}
+
+}  // namespace
+}  // namespace mansard::refine
