@@ -188,14 +188,8 @@ auto combined(std::span<const model::Accuracy> all) -> model::Accuracy {
   if (weight > 0) {
     out.offset = (1 / weight) * sum;
     out.offset_error = std::sqrt(1 / weight);
-    double apart = 0, spread = 0;
-    for (const auto& one : all) {
-      if (one.edges == 0) continue;
-      const Point2 off = one.offset - out.offset;
-      apart += static_cast<double>(one.edges) * dot(off, off) / 2;
-      spread += static_cast<double>(one.edges) * one.offset_spread * one.offset_spread;
-    }
-    out.offset_spread = std::sqrt((apart + spread) / static_cast<double>(out.edges));
+    put(middle([](const auto& one) { return one.offset_spread; }, [](const auto& one) { return one.edges; }),
+        out.offset_spread);
   }
   return out;
 }

@@ -13,11 +13,11 @@ constexpr double numbers_of_face = 3, numbers_of_part = 20;
 
 /// m²: the ground that one number is fitted to, for n = F / A in ½ ln n: a roof plane of a house. It counts by its
 /// logarithm.
-constexpr double roof_plane = 50;
+constexpr double roof_plane = 40;
 
-/// The share of the smallest detail that one number of it pays: a part on it is nine or ten faces and an outline, fifty
-/// numbers; so much is left where the detail is half explained by the roof around it.
-constexpr double number_of_detail = 1.0 / 20;
+/// The share of the smallest detail that one number of it pays: a box is some forty-five numbers, an outline and eight
+/// faces; so much is left where the roof around it explains two thirds of the detail.
+constexpr double number_of_detail = 1.0 / 14;
 
 /// Beyond 0.4 m from an outline and 0.5 m from a crease too little is left of narrow roofs, however much a scan rounds.
 constexpr double most_margin = 0.4, most_melt = 0.5;

@@ -129,7 +129,7 @@ TEST(Kept, makes_again_only_what_changed_and_says_why) {
   EXPECT_EQ(again.reuse.made, (Why{{"block-more", "new"}}));
 
   Options other;
-  other.refine.face_price = 0.5;
+  other.refine.detail = 0.2;
   again = made(scene, opened(folder).get(), other);
   EXPECT_EQ(again.reuse.made.size(), 4U);
   for (const auto& [block, why] : again.reuse.made) EXPECT_EQ(why, "options") << block;

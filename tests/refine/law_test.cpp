@@ -16,7 +16,7 @@ auto scan(double noise, double area, double blur, double edge) -> model::Accurac
 TEST(Law, prices_grow_with_the_variance_of_the_noise_and_the_area_of_one_error) {
   const auto coarse = decided_by({}, scan(0.2, 10, 0.25, 0.1)), fine = decided_by({}, scan(0.1, 10, 0.25, 0.1));
   EXPECT_DOUBLE_EQ(coarse.face_price, 4 * fine.face_price);
-  EXPECT_DOUBLE_EQ(fine.value_price, 0.1 * 0.1 * 10 * std::log(5.0));
+  EXPECT_DOUBLE_EQ(fine.value_price, 0.1 * 0.1 * 10 * std::log(4.0));
   EXPECT_DOUBLE_EQ(fine.face_price, 3 * fine.value_price);
   EXPECT_GT(decided_by({}, scan(0.1, 20, 0.25, 0.1)).face_price, fine.face_price);
 }
@@ -24,7 +24,7 @@ TEST(Law, prices_grow_with_the_variance_of_the_noise_and_the_area_of_one_error) 
 TEST(Law, of_a_perfect_scan_is_the_smallest_detail_alone) {
   Options asked;
   const auto small = decided_by(asked, scan(0, 1, 0, 0));
-  EXPECT_DOUBLE_EQ(small.value_price, 0.1 * 0.1 * 4 / 20);
+  EXPECT_DOUBLE_EQ(small.value_price, 0.1 * 0.1 * 4 / 14);
   asked.detail = 0.5;
   EXPECT_DOUBLE_EQ(decided_by(asked, scan(0, 1, 0, 0)).value_price, 25 * small.value_price);
   EXPECT_EQ(small.margin, 0);
