@@ -109,7 +109,7 @@ auto measure(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<con
     }
   }
   if (!o.blur || !o.walls || !o.offset_x || !o.offset_y || !o.offset_spread) {
-    const auto transects = detail::across(outline, scene);
+    const auto transects = detail::across(outline, mesh, scene);
     if (const auto blur = detail::blur_from(transects)) {
       out.blur = rounded(*blur);
       out.transects = transects.transects.size();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -40,7 +41,67 @@ auto roof_at(Point2 place, Point2 outward, const rays::Scene& scene) -> std::opt
   return line;
 }
 
-auto transect_at(Point2 place, Point2 outward, const rays::Scene& scene) -> std::optional<Transect> {
+/// The steep triangles of a mesh, by the squares that they meet in plan.
+class Walls {
+ public:
+  Walls(const geometry::Mesh& mesh, const geometry::Box2& within) : mesh_(mesh), origin_(within.least) {
+    if (within.empty()) return;
+    const Point2 size = within.most - within.least;
+    columns_ = static_cast<std::int64_t>(size.x / square) + 1, rows_ = static_cast<std::int64_t>(size.y / square) + 1;
+    squares_.resize(static_cast<std::size_t>(columns_ * rows_));
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      const auto n = cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+      if (std::abs(n.z) > steep * length(n)) continue;
+      geometry::Box2 box;
+      for (const auto v : mesh.triangles[t]) box.add(xy(mesh.vertices[v]));
+      if (box.overlaps(within)) each_square(box, [&](std::vector<std::uint32_t>& at) { at.push_back(t); });
+    }
+  }
+
+  /// Whether one of them, cut at that height, is nearer than that.
+  [[nodiscard]] auto near(Point2 at, double z, double within) -> bool {
+    bool found = false;
+    each_square(geometry::Box2::of(geometry::Segment2{at, at}).grown(within), [&](const auto& triangles) {
+      found = found || std::ranges::any_of(triangles, [&](std::uint32_t t) { return meets(t, at, z, within); });
+    });
+    return found;
+  }
+
+ private:
+  static constexpr double square = 2;   // m
+  static constexpr double steep = 0.5;  // cosine of 60° from level
+
+  template <class See>
+  void each_square(const geometry::Box2& box, See see) {
+    const auto index = [](double v, std::int64_t count) {
+      return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(v / square)), 0, count - 1);
+    };
+    if (squares_.empty()) return;
+    for (auto row = index(box.least.y - origin_.y, rows_); row <= index(box.most.y - origin_.y, rows_); ++row)
+      for (auto column = index(box.least.x - origin_.x, columns_); column <= index(box.most.x - origin_.x, columns_);
+           ++column)
+        see(squares_[static_cast<std::size_t>(row * columns_ + column)]);
+  }
+
+  [[nodiscard]] auto meets(std::uint32_t t, Point2 at, double z, double within) const -> bool {
+    std::array<Point2, 2> ends;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3 && count < 2; ++i) {
+      const auto &a = mesh_.vertices[mesh_.triangles[t][i]], &b = mesh_.vertices[mesh_.triangles[t][(i + 1) % 3]];
+      if ((a.z <= z) == (b.z <= z)) continue;
+      ends[count++] = xy(a) + ((z - a.z) / (b.z - a.z)) * (xy(b) - xy(a));
+    }
+    return count == 2 && geometry::distance({ends[0], ends[1]}, at) <= within;
+  }
+
+  const geometry::Mesh& mesh_;
+  Point2 origin_;
+  std::int64_t columns_ = 0, rows_ = 0;
+  std::vector<std::vector<std::uint32_t>> squares_;
+};
+
+auto transect_at(Point2 place, Point2 outward, const rays::Scene& scene, Walls& walls) -> std::optional<Transect> {
   const auto roof = roof_at(place, outward, scene);
   if (!roof) return std::nullopt;
   std::vector<double> ground;
@@ -91,7 +152,7 @@ auto transect_at(Point2 place, Point2 outward, const rays::Scene& scene) -> std:
     constexpr double beside = 0.4;                  // m
     const Point2 foot = place + out.outside * outward;
     for (const double h : heights)
-      if (scene.nearest({foot.x, foot.y, low + h * drop}, beside)) out.walls += 1.0 / heights.size();
+      if (walls.near(foot, low + h * drop, beside)) out.walls += 1.0 / heights.size();
     return out;
   }
   return std::nullopt;
@@ -111,7 +172,8 @@ auto rounded(double x) -> double {
 
 }  // namespace
 
-auto across(std::span<const geometry::Polygon> outline, const rays::Scene& scene) -> Transects {
+auto across(std::span<const geometry::Polygon> outline, const geometry::Mesh& mesh, const rays::Scene& scene)
+    -> Transects {
   Transects out;
   struct Place {
     std::size_t edge;
@@ -141,9 +203,10 @@ auto across(std::span<const geometry::Polygon> outline, const rays::Scene& scene
       places.push_back(
           {out.edges.size() - 1, edge.start + ((static_cast<double>(k) + 0.5) / static_cast<double>(count)) * along});
   }
+  Walls walls(mesh, geometry::bounds(outline).grown(2 * reach_out));
   std::vector<std::optional<Transect>> found(places.size());
   base::parallel_for(places.size(), [&](std::size_t i) {
-    found[i] = transect_at(places[i].at, out.edges[places[i].edge].outward, scene);
+    found[i] = transect_at(places[i].at, out.edges[places[i].edge].outward, scene, walls);
     if (found[i]) found[i]->edge = places[i].edge;
   });
   for (const auto& one : found)

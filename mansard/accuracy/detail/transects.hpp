@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/rays/rays.hpp"
 
@@ -28,7 +29,9 @@ struct Transects {
   std::vector<Edge> edges;
   std::vector<Transect> transects;
 };
-[[nodiscard]] auto across(std::span<const geometry::Polygon> outline, const rays::Scene& scene) -> Transects;
+/// `scene` is of the mesh.
+[[nodiscard]] auto across(std::span<const geometry::Polygon> outline, const geometry::Mesh& mesh,
+                          const rays::Scene& scene) -> Transects;
 
 /// m: the standard deviation of the smoothing that makes the median falls; none where there are too few transects.
 [[nodiscard]] auto blur_from(const Transects& transects) -> std::optional<double>;
