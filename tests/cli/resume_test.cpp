@@ -216,7 +216,7 @@ TEST_F(Resume, makes_again_what_changed_and_says_why) {
   EXPECT_EQ(reuse["blocks_made_again"]["footprints"], Json::array({"block-h0"}));
   ASSERT_EQ(run(command("fresh", "-q --no-resume")).exit, 0);
   EXPECT_THAT(different(results("out"), results("fresh")), testing::IsEmpty());
-  EXPECT_THAT(run(command("out", "--overwrite --refine-face-price 0.4")).err, HasSubstr("36 (options)"));
+  EXPECT_THAT(run(command("out", "--overwrite --refine-detail 0.2")).err, HasSubstr("36 (options)"));
 }
 
 TEST_F(Resume, lets_one_run_work_in_a_folder) {
