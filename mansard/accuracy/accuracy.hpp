@@ -34,7 +34,7 @@ struct Options {
 /// The accuracy of a scan over some footprints. `scene` is of the same mesh, maybe without the crowns of trees.
 /// Guarantees: 1 a function of the mesh and the outline alone, whatever the order of triangles, the thread count and
 /// the (whole-metre) frame · 2 a mesh of planes has no noise and no blur · 3 planted noise, correlated area, spacing,
-/// blur and offset are measured within 20 % (docs/accuracy.md has the table).
+/// blur and offset are measured within 20 %, but for one number in fifty (docs/accuracy.md).
 /// Cost: O(vertices + outline's length); places and transects are at most some hundreds.
 [[nodiscard]] auto measure(const geometry::Mesh& mesh, const rays::Scene& scene,
                            std::span<const geometry::Polygon> outline, const Options& options = {}) -> model::Accuracy;
