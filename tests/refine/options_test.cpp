@@ -22,7 +22,7 @@ TEST(RefineOptions, all_but_the_objective_are_advanced) {
   Options options;
   const auto list = option_list(options);
   const auto plain = std::ranges::count_if(list.options(), [](const auto& o) { return !o.advanced; });
-  EXPECT_EQ(plain, 9);
+  EXPECT_EQ(plain, 7);
   EXPECT_GT(list.options().size(), 50U);
 }
 
