@@ -8,6 +8,7 @@
 
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
+#include "mansard/refine/detail/place.hpp"
 #include "mansard/refine/detail/propose_outline.hpp"
 #include "mansard/refine/detail/propose_raster.hpp"
 #include "mansard/refine/detail/propose_regions.hpp"
@@ -302,7 +303,8 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   }
   std::vector<Proposal> out;
   for (Cut& cut : std::move(cuts).best()) {
-    Polygon piece = with_corners_of(part, without_slivers(part, std::move(cut.polygon), options), options.pieces.slit);
+    Polygon at_step = placed(part, std::move(cut.polygon), measured, options);
+    Polygon piece = with_corners_of(part, without_slivers(part, std::move(at_step), options), options.pieces.slit);
     if (!sound(part, piece, options)) continue;
     std::string what = words_for(as_measured, cut, options);
     out.push_back({std::move(piece), cut.gain, cut.errors.inside_mean, std::move(what), cut.shape == 0});

@@ -1,0 +1,171 @@
+#include "mansard/refine/detail/place.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "mansard/geometry/fit.hpp"
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Point2;
+using geometry::Polygon;
+
+/// A sample beside a side: along it, off it (positive into the piece), and its height.
+struct Beside {
+  double along, off, height;  // m
+};
+
+struct Side {
+  Point2 start, along, inward;
+  double length;
+};
+
+/// m: a side is looked for as far as it may be wrong, and the planes beside it are read as far again beyond.
+constexpr double most_move = 1, read = 1;
+
+/// Those of the part's samples whose foot is on the side.
+auto samples_beside(const Side& side, const Heights& grid) -> std::vector<Beside> {
+  constexpr double reach = most_move + read;
+  auto box = geometry::Box2::of(geometry::Segment2{side.start, side.start + side.length * side.along}).grown(reach);
+  const auto index = [&](double v, double origin, std::size_t count) {
+    return static_cast<std::size_t>(
+        std::clamp(std::ceil((v - origin) / grid.spacing), 0.0, static_cast<double>(count)));
+  };
+  std::vector<Beside> out;
+  const std::size_t right = index(box.most.x, grid.origin.x, grid.columns),
+                    top = index(box.most.y, grid.origin.y, grid.rows);
+  for (std::size_t row = index(box.least.y, grid.origin.y, grid.rows); row < top; ++row)
+    for (std::size_t column = index(box.least.x, grid.origin.x, grid.columns); column < right; ++column) {
+      const double z = grid.at(column, row);
+      if (std::isnan(z)) continue;
+      const Point2 from = grid.centre(column, row) - side.start;
+      const double along = dot(from, side.along), off = dot(from, side.inward);
+      if (along > 0 && along < side.length && std::abs(off) < reach) out.push_back({along, off, z});
+    }
+  return out;
+}
+
+/// z over (along, off), robustly: half of the samples may lie elsewhere, as behind a ridge.
+struct Plane {
+  geometry::FittedPlane plane;
+  double error = 0;  // m, RMS of what was kept
+};
+auto plane_through(const std::vector<Beside>& samples, double from, double to, double noise, std::size_t fewest)
+    -> std::optional<Plane> {
+  std::vector<Beside> kept;
+  for (const auto& s : samples)
+    if (s.off >= from && s.off < to) kept.push_back(s);
+  constexpr int rounds = 4;
+  std::optional<Plane> out;
+  for (int round = 0; round < rounds; ++round) {
+    if (kept.size() < fewest) return std::nullopt;
+    geometry::PlaneSums sums;
+    for (const auto& s : kept) sums.add(s.along, s.off, s.height);
+    const auto centred = sums.centred();
+    if (centred.determinant() <= 1e-6 * centred.xx * centred.yy) return std::nullopt;  // all on one line
+    const auto plane = sums.plane(centred.slopes());
+    double squares = 0;
+    for (const auto& s : kept) {
+      const double d = s.height - plane.at(s.along, s.off);
+      squares += d * d;
+    }
+    const double rms = std::sqrt(squares / static_cast<double>(kept.size()));
+    out = Plane{plane, rms};
+    const double limit = std::max(noise, 2 * rms);
+    const auto before = kept.size();
+    std::erase_if(kept, [&](const Beside& s) { return std::abs(s.height - plane.at(s.along, s.off)) > limit; });
+    if (kept.size() == before) break;
+  }
+  return out;
+}
+
+/// How far the side is to move into the piece; nothing where that is not worth a number.
+auto move_of(std::vector<Beside> samples, double cell_area, const Options& options) -> std::optional<double> {
+  const double noise = options.lines.robust, melt = options.samples.melt;
+  const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
+  std::ranges::sort(samples, {}, [](const Beside& s) { return std::pair(s.off, s.along); });
+  double at = 0, gain = 0;
+  constexpr int rounds = 3;  // what is read clear of the side is another after it moved
+  for (int round = 0; round < rounds; ++round) {
+    const double clear = round == 0 ? std::max(melt, most_move / 2) : melt;
+    const auto inner = plane_through(samples, at + clear, at + clear + read, noise, fewest),
+               outer = plane_through(samples, at - clear - read, at - clear, noise, fewest);
+    if (!inner || !outer) return std::nullopt;
+    if (std::max(inner->error, outer->error) > noise) return std::nullopt;
+    // All within reach are of the outer plane up to the side, and of the inner one from there on.
+    double least = 0, sum = 0, here = 0;
+    std::optional<double> best;
+    bool first = true;
+    double from = -most_move, before = -most_move;
+    for (std::size_t i = 0; i <= samples.size(); ++i) {
+      const bool end = i == samples.size();
+      const double off = end ? most_move : samples[i].off;
+      if (off < -most_move) continue;
+      const double to = std::min(off, most_move);
+      if (first || sum < least) least = sum, best = (from + to) / 2, first = false;
+      if (before <= at && at < to) here = sum;
+      if (end || off >= most_move) break;
+      const auto& s = samples[i];
+      const double in = std::min(noise + std::abs(s.height - inner->plane.at(s.along, s.off)), options.robust) - noise,
+                   out = std::min(noise + std::abs(s.height - outer->plane.at(s.along, s.off)), options.robust) - noise;
+      sum += out * out - in * in;
+      from = before = to;
+    }
+    if (!best) return std::nullopt;
+    if (round == 0) gain = (here - least) * cell_area;
+    at = *best;
+    if (std::abs(at) >= most_move) return std::nullopt;
+  }
+  if (gain < options.value_price) return std::nullopt;
+  return at;
+}
+
+auto crossing_of(Point2 a, Point2 along_a, Point2 b, Point2 along_b) -> std::optional<Point2> {
+  constexpr double parallel = 0.1;  // sine of 6°: a corner would move ten times as far as its side
+  const double sine = cross(along_a, along_b);
+  if (std::abs(sine) < parallel) return std::nullopt;
+  return a + (cross(b - a, along_b) / sine) * along_a;
+}
+
+auto is_free(const Polygon& part, const Side& side, double near) -> bool {
+  constexpr int places = 8;
+  int on = 0;
+  for (int i = 0; i < places; ++i) {
+    const Point2 at = side.start + (side.length * (i + 0.5) / places) * side.along;
+    on += geometry::boundary_distance(part, at) < near ? 1 : 0;
+  }
+  return on <= places / 4;
+}
+
+}  // namespace
+
+auto placed(const Polygon& part, Polygon piece, const Heights& measured, const Options& options) -> Polygon {
+  const double cell_area = measured.spacing * measured.spacing;
+  for (std::size_t i = 0; i < piece.outer.size(); ++i) {
+    auto& ring = piece.outer;
+    const std::size_t n = ring.size(), h = (i + n - 1) % n, j = (i + 1) % n, k = (i + 2) % n;
+    if (n < 4) break;
+    const Point2 along = geometry::normalised(ring[j] - ring[i]);
+    Side side{ring[i], along, geometry::left_of(along), length(ring[j] - ring[i])};
+    if (side.length < options.cuts.min_width || !is_free(part, side, options.outlines.near_line)) continue;
+    const auto move = move_of(samples_beside(side, measured), cell_area, options);
+    if (!move) continue;
+    const Point2 on = side.start + *move * side.inward;
+    const auto a = crossing_of(on, along, ring[h], ring[i] - ring[h]),
+               b = crossing_of(on, along, ring[k], ring[j] - ring[k]);
+    if (!a || !b || dot(*b - *a, along) < options.cuts.min_width) continue;
+    if (length(*a - ring[i]) > 2 * most_move || length(*b - ring[j]) > 2 * most_move) continue;
+    Polygon next = piece;
+    next.outer[i] = *a;
+    next.outer[j] = *b;
+    if (geometry::area(next) > 0 && geometry::is_simple(next)) piece = std::move(next);
+  }
+  return piece;
+}
+
+}  // namespace mansard::refine::detail

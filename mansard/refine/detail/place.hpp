@@ -1,0 +1,17 @@
+// Where the line of a cut lies, to a centimetre where the samples say so.
+#pragma once
+
+#include "mansard/geometry/polygon.hpp"
+#include "mansard/refine/detail/heights.hpp"
+#include "mansard/refine/options.hpp"
+
+namespace mansard::refine::detail {
+
+/// The piece with every free side, one that does not follow the part's own outline, moved to where the planes on its
+/// two sides leave the least squared difference. A side stays where that takes off less than a number of a roof costs
+/// (`value_price`), where either side shows no plane, and where the piece would not stay simple or in the part.
+/// Cost: sides × samples within 2 m of them.
+[[nodiscard]] auto placed(const geometry::Polygon& part, geometry::Polygon piece, const Heights& measured,
+                          const Options& options) -> geometry::Polygon;
+
+}  // namespace mansard::refine::detail
