@@ -62,9 +62,7 @@ void add_forms(OptionList& list, Options::Forms& o) {
 }
 
 void add_mansard(OptionList& list, Options::Mansard& o) {
-  list.number("mansard_min_depth", o.min_depth, "m", length, "Minimum run of the steep part of a mansard roof.")
-      .advanced("a melted corner is smaller; docs/refine.md, not measured")
-      .number("mansard_max_depth", o.max_depth, "m", length, "Maximum run of the steep part of a mansard roof.")
+  list.number("mansard_max_depth", o.max_depth, "m", length, "Maximum run of the steep part of a mansard roof.")
       .advanced(by_hand)
       .number("mansard_min_rise", o.min_rise, "m", height, "Minimum rise of the steep part of a mansard roof.")
       .advanced("a melted corner is smaller; docs/refine.md, not measured");
@@ -121,8 +119,6 @@ void add_bare(OptionList& list, Options::Bare& o) {
       .number("bare_steep", o.steep, "rad", angle,
               "A steeper roof face is a wall in truth, and pays part_price unless the scan shows it.")
       .advanced("65°, as mansard evaluate counts them")
-      .number("bare_noise", o.noise, "m", length, "Samples within this distance of a steep face lie on it.")
-      .advanced("a scan's noise, as mansard evaluate takes it")
       .number("bare_area", o.area, "m²", area, "A steep face with samples over this area is shown by the scan.")
       .advanced("as mansard evaluate counts them");
 }
@@ -179,18 +175,8 @@ void add_roughness(OptionList& list, Options::Cuts& o) {
 }
 
 void add_cuts(OptionList& list, Options::Cuts& o) {
-  list.number("cuts_min_step", o.min_step, "m", height,
-              "A structure differs in height from the roof around it by at least "
-              "this.")
-      .advanced(by_hand)
-      .number("cuts_min_width", o.min_width, "m", length,
-              "A structure with a smaller mean width is a chimney or a rounded edge.")
-      .advanced(by_hand);
   add_roughness(list, o);
-  list.number("cuts_line_min_width", o.line_min_width, "m", length,
-              "A line across a part leaves at least this mean width on either side.")
-      .advanced(by_hand)
-      .number("cuts_new_direction", o.new_direction, "rad", angle,
+  list.number("cuts_new_direction", o.new_direction, "rad", angle,
               "The walls of a structure are a direction of their own where they differ from all others by more than "
               "this.")
       .advanced("8°; chosen by hand, not measured")

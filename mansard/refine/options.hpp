@@ -81,7 +81,7 @@ struct Options {
 
   /// A steep foot below a flatter roof (forms).
   struct Mansard {
-    double min_depth = 0.7;  ///< m
+    double min_depth = 0.7;  ///< m; no option: decided_by
     double max_depth = 3;    ///< m
     double min_rise = 1.5;   ///< m
     /// Minimum slope (rise per run) of the steep part of a mansard roof. Chosen by hand; not measured.
@@ -169,7 +169,7 @@ struct Options {
   struct Bare {
     std::int64_t cells = 3;
     double steep = 65 * std::numbers::pi / 180;  ///< rad
-    double noise = 0.15;                         ///< m
+    double noise = 0.15;                         ///< m; no option: decided_by
     double area = 1;                             ///< m²
   } bare;
 
@@ -208,8 +208,9 @@ struct Options {
 
   /// What may become a part of its own (propose).
   struct Cuts {
-    double min_step = 0.5;                        ///< m
-    double min_width = 0.8;                       ///< m
+    double least_area = 4;                        ///< m²; no option: decided_by
+    double min_step = 0.5;                        ///< m; no option: decided_by
+    double min_width = 0.8;                       ///< m; no option: decided_by
     static constexpr std::int64_t max_count = 6;  ///< a limit on the search
     double crisp_rms = 0.15;                      ///< m
     double smooth_rms = 0.35;                     ///< m
@@ -228,7 +229,7 @@ struct Options {
     /// A line across a part is proposed where it explains at least this share of the part's error. Chosen by hand; not
     /// measured.
     double line_gain = 0.15;
-    double line_min_width = 1.25;  ///< m
+    double line_min_width = 1.25;  ///< m; no option: decided_by
     /// Two cuts are one where at most this share of their cells is on different sides. Chosen by hand; not measured.
     double same_share = 0.25;
     /// An outline is ranked lower by this share of its gain for each of its rectangles. Chosen by hand; not measured.

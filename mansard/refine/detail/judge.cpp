@@ -37,6 +37,14 @@ void losses_of(std::size_t count, const Kernel& kernel, const std::array<const d
   }
 }
 
+/// A wall within a profile is said with the level before it, which ends there: it has no numbers of its own.
+auto priced_faces(const model::Solid& sketch) -> double {
+  constexpr double upright = 1e-6;  // a wall's normal: see view_of
+  return static_cast<double>(std::ranges::count_if(sketch.faces, [](const model::Face& face) {
+    return !(face.provenance && face.provenance->part > 0 && std::abs(face.normal.z) <= upright);
+  }));
+}
+
 }  // namespace
 
 auto Judge::misfit_of(const std::vector<double>& z, double cap, double most) const -> double {
@@ -116,7 +124,7 @@ auto Judge::again(const model::Plan& plan, double most) const -> std::optional<J
 
 auto Judge::of(const model::Plan& plan, model::Solid sketch, double most) const -> std::optional<Judged> {
   // Sums of what is not negative, rounded, do not fall by what is added: each bound is one of the cost as priced below.
-  const double faces = options_.face_price * static_cast<double>(sketch.faces.size());
+  const double faces = options_.face_price * priced_faces(sketch);
   if (faces >= most) return std::nullopt;
   Judged out{plan, std::move(sketch), {}, 0, {}, 0, 0};
   out.view = view_of(out.sketch, site_.measured, site_.base);
@@ -131,8 +139,7 @@ auto Judge::of(const model::Plan& plan, model::Solid sketch, double most) const 
 void Judge::price(Judged& judged) const {
   // Evidence would have to come from elsewhere: as dear as a part.
   judged.unsupported = options_.part_price * static_cast<double>(judged.bare.size());
-  judged.cost =
-      judged.unsupported + judged.misfit + options_.face_price * static_cast<double>(judged.sketch.faces.size());
+  judged.cost = judged.unsupported + judged.misfit + options_.face_price * priced_faces(judged.sketch);
 }
 
 }  // namespace mansard::refine::detail

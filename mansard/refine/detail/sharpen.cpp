@@ -6,6 +6,7 @@
 #include "mansard/base/statistics.hpp"
 #include "mansard/refine/detail/forms.hpp"
 #include "mansard/refine/detail/refit.hpp"
+#include "mansard/refine/detail/steps.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -76,7 +77,7 @@ auto sharpened(Judged judged, const Judge& judge) -> Judged {
     if (!next || next->plan == judged.plan || next->cost > most) break;
     judged = std::move(*next);
   }
-  judged = uncut(std::move(judged), judge, most);
+  judged = stepped(uncut(std::move(judged), judge, most), judge, most);
   if (!nearly_level(judged.plan, options.sharpen.level_slope)) return judged;
   auto flat = judge(levelled(judged.plan, judge.site(), options.forms));
   if (!flat) return judged;

@@ -10,6 +10,7 @@
 #include "mansard/refine/detail/forms.hpp"
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/refit.hpp"
+#include "mansard/refine/detail/steps.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -17,22 +18,6 @@ namespace {
 using model::Plan;
 using model::PlanRing;
 using model::Profile;
-
-/// The plan with another profile on one edge; a profile that other edges carry too stays theirs.
-auto carrying(const Plan& plan, std::uint32_t ring, std::uint32_t edge, Profile profile) -> Plan {
-  Plan out = plan;
-  PlanRing& of = ring == 0 ? out.outer : out.holes[ring - 1];
-  const auto number = of.profile_of_edge[edge];
-  std::ptrdiff_t users = std::ranges::count(out.outer.profile_of_edge, number);
-  for (const auto& hole : out.holes) users += std::ranges::count(hole.profile_of_edge, number);
-  if (users > 1) {
-    of.profile_of_edge[edge] = static_cast<std::uint32_t>(out.profiles.size());
-    out.profiles.push_back(std::move(profile));
-  } else {
-    out.profiles[number] = std::move(profile);
-  }
-  return out;
-}
 
 /// What an edge may carry instead of a profile that makes a bare face of its part.
 auto without_part(const Profile& profile, std::uint32_t part, const Options& options) -> std::vector<Profile> {
@@ -95,9 +80,11 @@ auto variants_of(const Judged& judged, std::uint32_t bare, const Judge& judge) -
 
 auto supported(Judged judged, const Judge& judge) -> Judged {
   if (judge.site().sorted.empty()) return judged;
-  for (std::size_t left = 2 * judged.bare.size(); left > 0; --left) {
+  for (std::size_t left = 2 * (judged.bare.size() + steep_faces(judged).size()); left > 0; --left) {
     std::vector<Plan> plans;
     for (const auto bare : judged.bare) std::ranges::move(variants_of(judged, bare, judge), std::back_inserter(plans));
+    for (const auto face : steep_faces(judged))
+      std::ranges::move(with_step(judged, face, judge), std::back_inserter(plans));
     std::vector<std::optional<Judged>> each(plans.size());
     base::parallel_for(plans.size(), [&](std::size_t i) {
       auto next = judge(plans[i]);

@@ -1,0 +1,174 @@
+#include "mansard/refine/detail/steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "mansard/base/statistics.hpp"
+#include "mansard/geometry/fit.hpp"
+#include "mansard/refine/detail/lines.hpp"
+#include "mansard/refine/detail/order.hpp"
+#include "mansard/refine/detail/refit.hpp"
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Point2;
+using model::Plan;
+using model::PlanRing;
+using model::Profile;
+
+constexpr double steep = 1;  // rise per run: 45°
+
+/// What lies over the strip of an edge, nearest first, and its misfit, m²·m².
+struct Strip {
+  std::vector<Look> looks;
+  double misfit = 0;
+};
+auto strip_of(const Judged& judged, const PlanRing& ring, std::uint32_t edge, double from, double to,
+              const Judge& judge) -> Strip {
+  const Site& site = judge.site();
+  const Point2 a = ring.points[edge], b = ring.points[(edge + 1) % ring.points.size()];
+  const Point2 along = geometry::normalised(b - a), inward = geometry::left_of(along);
+  const double length = geometry::length(b - a);
+  Strip out;
+  for (std::size_t i = 0; i < site.cells.size(); ++i) {
+    if (site.weight[i] < 1) continue;  // the melted wall hides how level the strip is
+    const auto cell = site.cells[i];
+    const Point2 at = site.centres[i] - a;
+    const double t = dot(at, along), d = dot(at, inward), z = site.measured.z[cell];
+    if (t <= 0 || t >= length || d <= from || d >= to) continue;
+    out.looks.push_back({d, z, 1});
+    if (const double off = judged.view.z[cell] - z; !std::isnan(off))
+      out.misfit += loss(off, judge.options().robust) * site.cell_area;
+  }
+  std::ranges::stable_sort(out.looks, {}, &Look::inward);
+  return out;
+}
+
+/// m: where a level and the line behind it leave least of the looks.
+struct Step {
+  double level = 0, depth = 0;
+};
+auto step_in(const std::vector<Look>& looks, double most, const Options& options) -> std::optional<Step> {
+  std::vector<geometry::LineSums> sums(1);
+  for (const Look& look : looks) {
+    sums.push_back(sums.back());
+    sums.back().add(look.inward, look.height, look.weight);
+  }
+  const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = fewest / 3; i + fewest < looks.size() && looks[i].inward <= most; ++i) {
+    const double left = sums[i].residual_level() + (sums.back() - sums[i]).residual();
+    if (left < least) {
+      least = left;
+      best = i;
+    }
+  }
+  if (best == 0) return std::nullopt;
+  std::vector<double> low;
+  for (std::size_t i = 0; i < best; ++i) low.push_back(looks[i].height);
+  return Step{base::median(std::move(low)), (looks[best - 1].inward + looks[best].inward) / 2};
+}
+
+/// The profile with a level and a wall instead of its parts `from` to `to`.
+auto with_step_in(const Profile& profile, std::size_t from, std::size_t to, const Step& step)
+    -> std::optional<Profile> {
+  const auto &foot = profile[from], &head = profile[to + 1];
+  Profile out(profile.begin(), profile.begin() + static_cast<std::ptrdiff_t>(from));
+  // Behind a wall the level is what was seen; behind a roof it is where that ends.
+  const bool behind_wall = out.back().inward == foot.inward;
+  const double level = behind_wall ? std::max(step.level, out.back().height) : foot.height;
+  out.push_back({foot.inward, level});
+  out.push_back({step.depth, level});
+  if (to + 2 < profile.size()) {
+    const auto& next = profile[to + 2];
+    if (step.depth >= next.inward) return std::nullopt;
+    const double rise = next.inward > head.inward ? (next.height - head.height) / (next.inward - head.inward) : 0;
+    out.push_back({step.depth, std::max(level, head.height - rise * (head.inward - step.depth))});
+    out.insert(out.end(), profile.begin() + static_cast<std::ptrdiff_t>(to) + 2, profile.end());
+  }
+  return out;
+}
+
+}  // namespace
+
+auto carrying(const Plan& plan, std::uint32_t ring, std::uint32_t edge, Profile profile) -> Plan {
+  Plan out = plan;
+  PlanRing& of = ring == 0 ? out.outer : out.holes[ring - 1];
+  const auto number = of.profile_of_edge[edge];
+  std::ptrdiff_t users = std::ranges::count(out.outer.profile_of_edge, number);
+  for (const auto& hole : out.holes) users += std::ranges::count(hole.profile_of_edge, number);
+  if (users > 1) {
+    of.profile_of_edge[edge] = static_cast<std::uint32_t>(out.profiles.size());
+    out.profiles.push_back(std::move(profile));
+  } else {
+    out.profiles[number] = std::move(profile);
+  }
+  return out;
+}
+
+auto steep_faces(const Judged& judged) -> std::vector<std::uint32_t> {
+  constexpr double upright = 1e-6;  // a wall's normal: see view_of
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t f = 0; f < judged.sketch.faces.size(); ++f) {
+    const auto& n = judged.sketch.faces[f].normal;
+    if (n.z > upright && n.x * n.x + n.y * n.y > steep * steep * n.z * n.z) out.push_back(f);
+  }
+  return out;
+}
+
+auto with_step(const Judged& judged, std::uint32_t face, const Judge& judge) -> std::vector<Plan> {
+  const auto& options = judge.options();
+  const auto& of = judged.sketch.faces[face];
+  if (of.kind == model::FaceKind::cap || !of.provenance) return {};
+  const auto [ring_number, edge, part] = *of.provenance;
+  const Plan& plan = judged.plan;
+  const PlanRing& ring = ring_number == 0 ? plan.outer : plan.holes[ring_number - 1];
+  const Profile& profile = plan.profiles[ring.profile_of_edge[edge]];
+  if (part == 0 || part + 1 >= profile.size()) return {};
+  const auto &foot = profile[part], &head = profile[part + 1];
+  const double run = head.inward - foot.inward;
+  if (run <= 0 || head.height - foot.height <= steep * run) return {};
+  const bool goes_on = part + 2 >= profile.size();  // up to the cap
+  const double end =
+      foot.inward + (goes_on ? std::max(0.0, plan.cap - foot.height) * run / (head.height - foot.height) : run);
+  std::vector<Plan> out;
+  for (std::uint32_t from = part; from > 0; from = from > 1 ? 1 : 0) {
+    const double start = profile[from].inward;
+    const Strip strip = strip_of(judged, ring, edge, start, end + options.setback.behind / 2, judge);
+    if (strip.misfit < options.value_price) continue;
+    const auto step = step_in(strip.looks, end, options);
+    if (!step || step->level < options.forms.min_height) continue;  // not the ground beside it
+    for (const double moved : {0.0, -options.grid / 2, options.grid / 2}) {
+      if (step->depth + moved <= start + options.mansard.min_depth) continue;
+      if (auto other = with_step_in(profile, from, part, {step->level, step->depth + moved}))
+        out.push_back(carrying(plan, ring_number, edge, std::move(*other)));
+    }
+  }
+  return out;
+}
+
+auto stepped(Judged judged, const Judge& judge, double most) -> Judged {
+  for (std::size_t left = steep_faces(judged).size(); left > 0; --left) {
+    std::optional<Judged> best;
+    const auto consider = [&](const Plan& plan) {
+      if (auto next = judge.cheaper(plan, best ? best->cost : most)) best = std::move(*next);
+    };
+    for (const auto face : steep_faces(judged))
+      for (const Plan& plan : with_step(judged, face, judge)) {
+        consider(plan);
+        if (auto next = judge(plan))
+          if (const Plan moved = refitted(*next, judge.site(), judge.options()); moved != plan) consider(moved);
+      }
+    if (!best) break;
+    judged = std::move(*best);
+  }
+  return judged;
+}
+
+}  // namespace mansard::refine::detail
