@@ -33,16 +33,15 @@ constexpr double weight_of_rounded = 0.2, weight_of_rough = 0.05;
 /// m: what is left between lines and samples without noise: coordinates have single precision in many files.
 constexpr double least_robust = 0.02;
 
-/// Melts: a part is four wide, so that half of it is clear of what is rounded along its walls; a structure is no
-/// narrower than the rounding of its two walls, and a line across a part leaves a side of one clear melt between two
-/// that are not; a step is where its own rounding ends. Those of a photogrammetric mesh with a melt of 0.5 m (4 m²,
-/// 0.8 m, 1.25 m, 0.7 m) were chosen by hand.
-constexpr double side_of_part = 4, width_of_part = 1.6, width_of_side = 2.5, depth_of_step = 1.4;
-/// m² and m: sixteen samples at 0.25 m; a strip one sample wide is none.
-constexpr double least_part = 1, least_strip = 0.3;
-/// Standard deviations of the noise: in a million pairs of samples not one differs by more by chance; m, at most: half
-/// a metre is a step in every scan.
-constexpr double seen_step = 5, most_step = 0.5;
+/// Melts: a structure is wider than what is rounded along its two walls, a line across a part leaves a clear strip of
+/// half a melt between two that are not, and a step is where its own rounding ends. Those of a photogrammetric mesh
+/// with a melt of 0.5 m (0.8 m, 1.25 m, 0.7 m) were chosen by hand.
+constexpr double width_of_part = 1.6, width_of_side = 2.5, depth_of_step = 1.4;
+/// m: a strip of one sample is none.
+constexpr double least_strip = 0.3;
+/// Smallest details, standard deviations of the noise, and m: a step is a half larger than what is of interest and
+/// stands clear of the noise on both sides; half a metre is a step in every scan.
+constexpr double wanted_step = 1.5, seen_step = 10, most_step = 0.5;
 /// Standard deviations, and m: samples so near to a steep face lie on it.
 constexpr double on_face = 1.5, most_on_face = 0.15;
 
@@ -69,14 +68,14 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.samples.blur = std::min(most_blur, edge);
   o.lines.robust = std::max(least_robust, reach * scan.noise);
 
-  // What is smaller than the scan can show is neither proposed nor made.
-  const double melt = o.samples.melt, sampled = static_cast<double>(o.lines.min_samples) * scan.spacing * scan.spacing;
-  o.cuts.least_area =
-      std::min(o.least_area, std::max({least_part, side_of_part * side_of_part * melt * melt, sampled}));
-  o.cuts.min_width = std::max(least_strip, width_of_part * melt);
-  o.cuts.line_min_width = std::max(least_strip, width_of_side * melt);
-  o.mansard.min_depth = std::max(least_strip, depth_of_step * melt);
-  o.cuts.min_step = std::max(o.detail, std::min(most_step, seen_step * scan.noise));
+  // What is smaller than the scan can show is neither proposed nor made. An edge between two samples is known to a
+  // twelfth of their squared distance; without noise the triangles' own edges are those of the surface.
+  const double between = scan.spacing * std::min(1.0, scan.noise / o.detail);
+  const double shown = std::clamp(reach * std::sqrt(edge * edge + between * between / 12), o.grid / 2, most_melt);
+  o.cuts.min_width = std::max(least_strip, width_of_part * shown);
+  o.cuts.line_min_width = std::max(least_strip, width_of_side * shown);
+  o.mansard.min_depth = std::max(least_strip, depth_of_step * shown);
+  o.cuts.min_step = std::max(wanted_step * o.detail, std::min(most_step, seen_step * scan.noise));
   o.bare.noise = std::clamp(on_face * scan.noise, least_robust, most_on_face);
   return o;
 }

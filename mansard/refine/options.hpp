@@ -208,7 +208,6 @@ struct Options {
 
   /// What may become a part of its own (propose).
   struct Cuts {
-    double least_area = 4;                        ///< m²; no option: decided_by
     double min_step = 0.5;                        ///< m; no option: decided_by
     double min_width = 0.8;                       ///< m; no option: decided_by
     static constexpr std::int64_t max_count = 6;  ///< a limit on the search

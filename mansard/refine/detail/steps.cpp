@@ -154,19 +154,25 @@ auto with_step(const Judged& judged, std::uint32_t face, const Judge& judge) -> 
 }
 
 auto stepped(Judged judged, const Judge& judge, double most) -> Judged {
-  for (std::size_t left = steep_faces(judged).size(); left > 0; --left) {
+  // One edge after the other. Faces have other numbers in every roof, edges keep theirs.
+  const auto next_of = [](const Judged& of, const std::optional<model::Provenance>& last) {
+    std::optional<std::pair<model::Provenance, std::uint32_t>> next;
+    for (const auto face : steep_faces(of))
+      if (const auto& from = of.sketch.faces[face].provenance; from && (!last || *from > *last))
+        if (!next || *from < next->first) next.emplace(*from, face);
+    return next;
+  };
+  for (auto at = next_of(judged, std::nullopt); at; at = next_of(judged, at->first)) {
     std::optional<Judged> best;
     const auto consider = [&](const Plan& plan) {
       if (auto next = judge.cheaper(plan, best ? best->cost : most)) best = std::move(*next);
     };
-    for (const auto face : steep_faces(judged))
-      for (const Plan& plan : with_step(judged, face, judge)) {
-        consider(plan);
-        if (auto next = judge(plan))
-          if (const Plan moved = refitted(*next, judge.site(), judge.options()); moved != plan) consider(moved);
-      }
-    if (!best) break;
-    judged = std::move(*best);
+    for (const Plan& plan : with_step(judged, at->second, judge)) {
+      consider(plan);
+      if (auto next = judge(plan))
+        if (const Plan moved = refitted(*next, judge.site(), judge.options()); moved != plan) consider(moved);
+    }
+    if (best) judged = std::move(*best);
   }
   return judged;
 }

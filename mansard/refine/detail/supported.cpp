@@ -80,11 +80,12 @@ auto variants_of(const Judged& judged, std::uint32_t bare, const Judge& judge) -
 
 auto supported(Judged judged, const Judge& judge) -> Judged {
   if (judge.site().sorted.empty()) return judged;
-  for (std::size_t left = 2 * (judged.bare.size() + steep_faces(judged).size()); left > 0; --left) {
+  for (std::size_t left = 2 * judged.bare.size(); left > 0; --left) {
     std::vector<Plan> plans;
-    for (const auto bare : judged.bare) std::ranges::move(variants_of(judged, bare, judge), std::back_inserter(plans));
-    for (const auto face : steep_faces(judged))
-      std::ranges::move(with_step(judged, face, judge), std::back_inserter(plans));
+    for (const auto bare : judged.bare) {
+      std::ranges::move(variants_of(judged, bare, judge), std::back_inserter(plans));
+      std::ranges::move(with_step(judged, bare, judge), std::back_inserter(plans));
+    }
     std::vector<std::optional<Judged>> each(plans.size());
     base::parallel_for(plans.size(), [&](std::size_t i) {
       auto next = judge(plans[i]);
