@@ -43,6 +43,25 @@ TEST(Law, margins_are_those_of_the_scans_edges_and_leave_something_of_narrow_roo
   EXPECT_NEAR(blurred.samples.margin_weight, 0.2, 0.01);
 }
 
+TEST(Law, makes_nothing_smaller_than_the_scan_shows) {
+  const auto exact = decided_by({}, scan(0, 1, 0, 0)), blurred = decided_by({}, scan(0.1, 10, 0.25, 0.1));
+  EXPECT_DOUBLE_EQ(exact.cuts.min_step, 0.15);  // one and a half of the smallest detail
+  EXPECT_DOUBLE_EQ(exact.cuts.min_width, 0.3);
+  EXPECT_DOUBLE_EQ(exact.mansard.min_depth, 0.3);
+  EXPECT_DOUBLE_EQ(blurred.cuts.min_step, 0.5);
+  EXPECT_DOUBLE_EQ(blurred.cuts.min_width, 0.8);
+  EXPECT_DOUBLE_EQ(blurred.cuts.line_min_width, 1.25);
+  EXPECT_DOUBLE_EQ(blurred.mansard.min_depth, 0.7);
+  EXPECT_DOUBLE_EQ(blurred.bare.noise, 0.15);
+  Options asked;
+  asked.detail = 1;
+  EXPECT_DOUBLE_EQ(decided_by(asked, scan(0, 1, 0, 0)).cuts.min_step, 1.5);
+  // Between two samples of a noisy scan an edge may be anywhere.
+  auto coarse = scan(0.1, 10, 0, 0);
+  coarse.spacing = 2;
+  EXPECT_GT(decided_by({}, coarse).cuts.min_width, exact.cuts.min_width);
+}
+
 TEST(Law, asks_for_more_where_the_user_does) {
   Options asked;
   asked.significance = 3;

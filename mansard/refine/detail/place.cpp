@@ -28,8 +28,9 @@ struct Side {
 /// m: a side is looked for as far as it may be wrong, and the planes beside it are read as far again beyond.
 constexpr double most_move = 1, read = 1;
 
-/// Those of the part's samples whose foot is on the side.
-auto samples_beside(const Side& side, const Heights& grid) -> std::vector<Beside> {
+/// Those of the part's samples whose foot is on the side, but for what is rounded: at its ends, and along the outline.
+auto samples_beside(const Side& side, const Polygon& part, const Heights& grid, double rounded) -> std::vector<Beside> {
+  const double trim = side.length > 4 * rounded ? rounded : 0;
   constexpr double reach = most_move + read;
   auto box = geometry::Box2::of(geometry::Segment2{side.start, side.start + side.length * side.along}).grown(reach);
   const auto index = [&](double v, double origin, std::size_t count) {
@@ -45,7 +46,8 @@ auto samples_beside(const Side& side, const Heights& grid) -> std::vector<Beside
       if (std::isnan(z)) continue;
       const Point2 from = grid.centre(column, row) - side.start;
       const double along = dot(from, side.along), off = dot(from, side.inward);
-      if (along > 0 && along < side.length && std::abs(off) < reach) out.push_back({along, off, z});
+      if (along <= trim || along >= side.length - trim || std::abs(off) >= reach) continue;
+      if (geometry::boundary_distance(part, grid.centre(column, row)) >= rounded) out.push_back({along, off, z});
     }
   return out;
 }
@@ -142,6 +144,21 @@ auto is_free(const Polygon& part, const Side& side, double near) -> bool {
   return on <= places / 4;
 }
 
+/// Whether the side goes on in the line of one of the part's own edges.
+auto goes_on(const Polygon& part, const Side& side) -> bool {
+  constexpr double same_line = 0.02, same_direction = 0.02;  // m, and the sine of 1°
+  const auto any = [&](const geometry::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point2 a = ring[i], b = ring[(i + 1) % ring.size()];
+      if (std::abs(cross(geometry::normalised(b - a), side.along)) > same_direction) continue;
+      const Point2 middle = 0.5 * (a + b);
+      if (std::abs(dot(middle - side.start, side.inward)) < same_line) return true;
+    }
+    return false;
+  };
+  return any(part.outer) || std::ranges::any_of(part.holes, any);
+}
+
 }  // namespace
 
 auto placed(const Polygon& part, Polygon piece, const Heights& measured, const Options& options) -> Polygon {
@@ -153,8 +170,9 @@ auto placed(const Polygon& part, Polygon piece, const Heights& measured, const O
     const Point2 along = geometry::normalised(ring[j] - ring[i]);
     Side side{ring[i], along, geometry::left_of(along), length(ring[j] - ring[i])};
     if (side.length < options.cuts.min_width || !is_free(part, side, options.outlines.near_line)) continue;
-    const auto move = move_of(samples_beside(side, measured), cell_area, options);
-    if (!move) continue;
+    const auto move = move_of(samples_beside(side, part, measured, options.margin), cell_area, options);
+    // Walls go on in one line, but where the scan says that they do not.
+    if (!move || (std::abs(*move) <= options.margin && goes_on(part, side))) continue;
     const Point2 on = side.start + *move * side.inward;
     const auto a = crossing_of(on, along, ring[h], ring[i] - ring[h]),
                b = crossing_of(on, along, ring[k], ring[j] - ring[k]);

@@ -20,8 +20,8 @@ namespace {
 
 /// Limits on the search, shares of what is wrong with a part: of what a cut must explain to be tried, and of what must
 /// lie along a seam for both parts to be cut anew. Cluttered roofs have hundreds of steps that explain next to nothing;
-/// b9 takes 40 CPU s with these and 100 without, with the same error (27 November 2026).
-constexpr double worth_a_cut = 0.02, worth_a_seam = 0.2;
+/// b9 takes 47 CPU s with these and 100 without, with the same error (27 November 2026).
+constexpr double worth_a_cut = 0.02, worth_a_seam = 0.05;
 
 /// What a crown hides may be joined with what is seen beside it.
 auto may_be_known(const Piece& piece) -> bool { return !piece.site.cells.empty() || !piece.site.ceilings.empty(); }
