@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mansard/geometry/fit.hpp"
+#include "mansard/refine/detail/order.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -27,6 +28,9 @@ struct Side {
 
 /// m: a side is looked for as far as it may be wrong, and the planes beside it are read as far again beyond.
 constexpr double most_move = 1, read = 1;
+
+/// m²: sums of some thousand squares of up to 9 m² are exact to 1e-11.
+constexpr double as_little = 1e-9;
 
 /// Those of the part's samples whose foot is on the side, but for what is rounded: at its ends, and along the outline.
 auto samples_beside(const Side& side, const Polygon& part, const Heights& grid, double rounded) -> std::vector<Beside> {
@@ -99,24 +103,27 @@ auto move_of(std::vector<Beside> samples, double cell_area, const Options& optio
                outer = plane_through(samples, at - clear - read, at - clear, noise, fewest);
     if (!inner || !outer) return std::nullopt;
     if (std::max(inner->error, outer->error) > noise) return std::nullopt;
-    // All within reach are of the outer plane up to the side, and of the inner one from there on.
-    double least = 0, sum = 0, here = 0;
+    // All within reach are of the outer plane up to the side, and of the inner one from there on. Samples at one
+    // distance, as in a column of the grid, are on one side: rounding orders them.
+    double least = 0, sum = 0, here = 0, from = -most_move;
     std::optional<double> best;
-    bool first = true;
-    double from = -most_move, before = -most_move;
-    for (std::size_t i = 0; i <= samples.size(); ++i) {
-      const bool end = i == samples.size();
-      const double off = end ? most_move : samples[i].off;
-      if (off < -most_move) continue;
-      const double to = std::min(off, most_move);
-      if (first || sum < least) least = sum, best = (from + to) / 2, first = false;
-      if (before <= at && at < to) here = sum;
-      if (end || off >= most_move) break;
+    for (std::size_t i = 0; i <= samples.size() && from < most_move; ++i) {
+      const double to = i < samples.size() ? std::clamp(samples[i].off, -most_move, most_move) : most_move;
+      if (to - from > same_distance) {
+        if (!best || sum < least - as_little) {
+          least = sum;
+          best = (from + to) / 2;
+        }
+        if (from <= at && at < to) here = sum;
+      }
+      from = to;
+      if (i == samples.size() || samples[i].off <= -most_move) continue;
       const auto& s = samples[i];
-      const double in = std::min(noise + std::abs(s.height - inner->plane.at(s.along, s.off)), options.robust) - noise,
-                   out = std::min(noise + std::abs(s.height - outer->plane.at(s.along, s.off)), options.robust) - noise;
+      const auto off_plane = [&](const Plane& plane) {
+        return std::min(std::abs(s.height - plane.plane.at(s.along, s.off)), options.robust);
+      };
+      const double in = off_plane(*inner), out = off_plane(*outer);
       sum += out * out - in * in;
-      from = before = to;
     }
     if (!best) return std::nullopt;
     if (round == 0) gain = (here - least) * cell_area;

@@ -21,7 +21,8 @@ using model::Plan;
 using model::PlanRing;
 using model::Profile;
 
-constexpr double steep = 1;  // rise per run: 45°
+constexpr double steep = 1;         // rise per run: 45°
+constexpr double as_little = 1e-9;  // m²: sums of some thousand squares of up to 100 m² are exact to 1e-10
 
 /// What lies over the strip of an edge, nearest first, and its misfit, m²·m².
 struct Strip {
@@ -62,9 +63,11 @@ auto step_in(const std::vector<Look>& looks, double most, const Options& options
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = fewest / 3; i + fewest < looks.size() && looks[i].inward <= most; ++i) {
+  for (std::size_t i = std::max<std::size_t>(1, fewest / 3); i + fewest < looks.size() && looks[i].inward <= most;
+       ++i) {
+    if (looks[i].inward - looks[i - 1].inward <= same_distance) continue;  // rounding orders them
     const double left = sums[i].residual_level() + (sums.back() - sums[i]).residual();
-    if (left < least) {
+    if (left < least - as_little) {
       least = left;
       best = i;
     }
