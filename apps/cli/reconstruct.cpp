@@ -41,9 +41,8 @@ auto summarise(const Made& made, const ReconstructRequest& request, Progress& pr
     progress.say(reuse);
   const auto& n = made.outcomes;
   progress.say(in_words(n));
-  std::vector<model::Accuracy> scans;
-  for (const auto& block : made.summary.blocks) scans.push_back(block.accuracy);
-  if (!scans.empty()) progress.say("accuracy of the scan: " + accuracy::in_a_sentence(accuracy::combined(scans)));
+  if (const auto scan = report::accuracy_of(made.summary))
+    progress.say("accuracy of the scan: " + accuracy::in_a_sentence(*scan));
   const auto& scores = made.summary.scores;
   progress.say("vertical error against the scan (RMSE): " + base::to_text(std::sqrt(scores.footprint_mse), 2) +
                " m over the footprints, " + base::to_text(std::sqrt(scores.mse), 2) + " m with the ground around them");

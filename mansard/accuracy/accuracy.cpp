@@ -108,7 +108,7 @@ auto measure(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<con
       if (out.windows > 0) out.correlated_area = std::max(out.correlated_area, rounded(spacing * spacing));
     }
   }
-  if (!o.blur || !o.walls || !o.offset_x || !o.offset_y || !o.offset_spread) {
+  if (!o.blur || !o.edge_noise || !o.walls || !o.offset_x || !o.offset_y || !o.offset_spread) {
     const auto transects = detail::across(outline, mesh, scene);
     if (const auto blur = detail::blur_from(transects)) {
       out.blur = rounded(*blur);
@@ -130,6 +130,7 @@ auto measure(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<con
   put(o.correlated_area, out.correlated_area);
   put(o.spacing, out.spacing);
   put(o.blur, out.blur);
+  put(o.edge_noise, out.edge_noise);
   put(o.walls, out.walls);
   put(o.offset_x, out.offset.x);
   put(o.offset_y, out.offset.y);

@@ -25,7 +25,7 @@ struct Options {
   std::optional<double> noise;                              ///< m
   std::optional<double> correlated_area;                    ///< m²
   std::optional<double> spacing;                            ///< m
-  std::optional<double> blur;                               ///< m
+  std::optional<double> blur, edge_noise;                   ///< m
   std::optional<double> walls;                              ///< share
   std::optional<double> offset_x, offset_y, offset_spread;  ///< m
 };

@@ -19,6 +19,9 @@ auto option_list(Options& options) -> base::OptionList {
               "Standard deviation of the smoothing by which the scan rounds edges and steps; measured where it is not "
               "given.")
       .source(measured)
+      .number("edge_noise", o.edge_noise, "m", {0, 10},
+              "Standard deviation of where the scan shows a straight edge, along it; measured where it is not given.")
+      .source(measured)
       .number("walls", o.walls, "", {0, 1},
               "Share of the height of the walls that the scan shows; measured where it is not given.")
       .source(measured)

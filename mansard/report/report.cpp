@@ -236,6 +236,13 @@ auto outcomes(const Reconstruction& reconstruction) -> Outcomes {
   return out;
 }
 
+auto accuracy_of(const Summary& summary) -> std::optional<model::Accuracy> {
+  std::vector<model::Accuracy> all;
+  for (const auto& block : summary.blocks) all.push_back(block.accuracy);
+  if (all.empty()) return std::nullopt;
+  return accuracy::combined(all);
+}
+
 RunJson::RunJson(const Summary& s, const Outcomes& outcomes, const model::MadeBy& made_by, const model::Scene& scene,
                  base::Sink& sink)
     : sink_(sink) {
@@ -245,9 +252,7 @@ RunJson::RunJson(const Summary& s, const Outcomes& outcomes, const model::MadeBy
                    {"covered", outcomes.covered},  {"refused", outcomes.refused}, {"blocks", s.blocks.size()}};
   if (scanned) {
     out["scores"] = json_of(s.scores);
-    std::vector<model::Accuracy> all;
-    for (const auto& block : s.blocks) all.push_back(block.accuracy);
-    if (!all.empty()) out["accuracy"] = json_of(accuracy::combined(all));
+    if (const auto all = accuracy_of(s)) out["accuracy"] = json_of(*all);
   }
   out["times"] = json_of(s.times);
   if (s.reuse.blocks > 0 || !s.reuse.made.empty())

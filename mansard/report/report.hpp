@@ -120,6 +120,9 @@ struct Summary {
   std::vector<Overlap> overlaps;  ///< all that were found, in the order of the buildings
 };
 
+/// Of all its blocks together; none where a run has no blocks of its own (a city in tasks).
+[[nodiscard]] auto accuracy_of(const Summary& summary) -> std::optional<model::Accuracy>;
+
 struct Reconstruction : Summary {
   model::City city;
   std::vector<BuildingReport> buildings;       ///< every input feature, in the source's order

@@ -151,11 +151,13 @@ TEST(Accuracy, takes_what_is_given_instead_of_measuring_it) {
   const auto truth = town();
   const auto scan = test::scanned(truth, exact());
   Options options;
-  options.noise = 0.07, options.correlated_area = 3, options.blur = 0.2, options.offset_x = 0.5;
+  options.noise = 0.07, options.correlated_area = 3, options.blur = 0.2, options.offset_x = 0.5,
+  options.edge_noise = 0.03;
   const auto found = measure(scan.mesh, rays::Scene(scan.mesh), outlines_of(truth), options);
   EXPECT_EQ(found.noise, 0.07);
   EXPECT_EQ(found.correlated_area, 3);
   EXPECT_EQ(found.blur, 0.2);
+  EXPECT_EQ(found.edge_noise, 0.03);
   EXPECT_EQ(found.offset.x, 0.5);
   EXPECT_LT(std::abs(found.offset.y), 0.005);
 }
