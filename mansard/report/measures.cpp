@@ -75,7 +75,7 @@ auto count_ridges(const model::Solid& solid, const std::vector<solid::Line>& rid
 enum class RoofLine : std::uint8_t { eave, ridge, other };
 
 auto roof_line(const LabelledSolid& model, const solid::Line& line) -> RoofLine {
-  constexpr double level = 1e-3;             // m
+  constexpr double level = 1.05e-3;          // m; half-way between whole units of the files, so that none is on it
   constexpr double rises = 1e-3;             // 0.06°
   constexpr double ridge_inclined = 0.0872;  // sine of 5°
   constexpr double flat = 0.99996;           // cosine of 0.5°
@@ -111,11 +111,12 @@ auto lines_of(const std::vector<const LabelledSolid*>& solids) -> RoofLines {
       const auto kind = roof_line(*one, line);
       if (kind == RoofLine::ridge) ridges.push_back(line);
       if (kind != RoofLine::eave) continue;
-      // A corner's height and lengths in whole units of the files: the same wherever the building stands.
+      // A corner's height and lengths in whole units of the files: the same wherever the building stands. Sums of whole
+      // numbers are exact, so that no rounding decides where two heights have half of the length each.
       constexpr double units_per_metre = 1e4;
       const auto a = one->solid.vertices[line.from], b = one->solid.vertices[line.to];
       const auto whole = [](double metres) { return std::round(metres * units_per_metre); };
-      eaves.emplace_back(std::min(a.z, b.z), std::hypot(whole(b.x - a.x), whole(b.y - a.y)));
+      eaves.emplace_back(std::min(a.z, b.z), std::round(std::hypot(whole(b.x - a.x), whole(b.y - a.y))));
       all += eaves.back().second;
     }
     out.ridges += static_cast<std::int64_t>(count_ridges(one->solid, ridges));
