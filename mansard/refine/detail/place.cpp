@@ -21,7 +21,7 @@ struct Beside {
   double along, off, height;  // m
 };
 
-struct Side {
+struct FreeSide {
   Point2 start, along, inward;
   double length;
 };
@@ -33,7 +33,8 @@ constexpr double most_move = 1, read = 1;
 constexpr double as_little = 1e-9;
 
 /// Those of the part's samples whose foot is on the side, but for what is rounded: at its ends, and along the outline.
-auto samples_beside(const Side& side, const Polygon& part, const Heights& grid, double rounded) -> std::vector<Beside> {
+auto samples_beside(const FreeSide& side, const Polygon& part, const Heights& grid, double rounded)
+    -> std::vector<Beside> {
   const double trim = side.length > 4 * rounded ? rounded : 0;
   constexpr double reach = most_move + read;
   auto box = geometry::Box2::of(geometry::Segment2{side.start, side.start + side.length * side.along}).grown(reach);
@@ -57,17 +58,17 @@ auto samples_beside(const Side& side, const Polygon& part, const Heights& grid, 
 }
 
 /// z over (along, off), robustly: half of the samples may lie elsewhere, as behind a ridge.
-struct Plane {
+struct PlaneBeside {
   geometry::FittedPlane plane;
   double error = 0;  // m, RMS of what was kept
 };
 auto plane_through(const std::vector<Beside>& samples, double from, double to, double noise, std::size_t fewest)
-    -> std::optional<Plane> {
+    -> std::optional<PlaneBeside> {
   std::vector<Beside> kept;
   for (const auto& s : samples)
     if (s.off >= from && s.off < to) kept.push_back(s);
   constexpr int rounds = 4;
-  std::optional<Plane> out;
+  std::optional<PlaneBeside> out;
   for (int round = 0; round < rounds; ++round) {
     if (kept.size() < fewest) return std::nullopt;
     geometry::PlaneSums sums;
@@ -81,7 +82,7 @@ auto plane_through(const std::vector<Beside>& samples, double from, double to, d
       squares += d * d;
     }
     const double rms = std::sqrt(squares / static_cast<double>(kept.size()));
-    out = Plane{plane, rms};
+    out = PlaneBeside{plane, rms};
     const double limit = std::max(noise, 2 * rms);
     const auto before = kept.size();
     std::erase_if(kept, [&](const Beside& s) { return std::abs(s.height - plane.at(s.along, s.off)) > limit; });
@@ -119,7 +120,7 @@ auto move_of(std::vector<Beside> samples, double cell_area, const Options& optio
       from = to;
       if (i == samples.size() || samples[i].off <= -most_move) continue;
       const auto& s = samples[i];
-      const auto off_plane = [&](const Plane& plane) {
+      const auto off_plane = [&](const PlaneBeside& plane) {
         return std::min(std::abs(s.height - plane.plane.at(s.along, s.off)), options.robust);
       };
       const double in = off_plane(*inner), out = off_plane(*outer);
@@ -141,7 +142,7 @@ auto crossing_of(Point2 a, Point2 along_a, Point2 b, Point2 along_b) -> std::opt
   return a + (cross(b - a, along_b) / sine) * along_a;
 }
 
-auto is_free(const Polygon& part, const Side& side, double near) -> bool {
+auto is_free(const Polygon& part, const FreeSide& side, double near) -> bool {
   constexpr int places = 8;
   int on = 0;
   for (int i = 0; i < places; ++i) {
@@ -152,7 +153,7 @@ auto is_free(const Polygon& part, const Side& side, double near) -> bool {
 }
 
 /// Whether the side goes on in the line of one of the part's own edges.
-auto goes_on(const Polygon& part, const Side& side) -> bool {
+auto goes_on(const Polygon& part, const FreeSide& side) -> bool {
   constexpr double same_line = 0.02, same_direction = 0.02;  // m, and the sine of 1°
   const auto any = [&](const geometry::Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -175,7 +176,7 @@ auto placed(const Polygon& part, Polygon piece, const Heights& measured, const O
     const std::size_t n = ring.size(), h = (i + n - 1) % n, j = (i + 1) % n, k = (i + 2) % n;
     if (n < 4) break;
     const Point2 along = geometry::normalised(ring[j] - ring[i]);
-    Side side{ring[i], along, geometry::left_of(along), length(ring[j] - ring[i])};
+    FreeSide side{ring[i], along, geometry::left_of(along), length(ring[j] - ring[i])};
     if (side.length < options.cuts.min_width || !is_free(part, side, options.outlines.near_line)) continue;
     const auto move = move_of(samples_beside(side, part, measured, options.margin), cell_area, options);
     // Walls go on in one line, but where the scan says that they do not.

@@ -22,7 +22,7 @@ using model::PlanRing;
 using model::Profile;
 
 constexpr double steep = 1;         // rise per run: 45°
-constexpr double as_little = 1e-9;  // m²: sums of some thousand squares of up to 100 m² are exact to 1e-10
+constexpr double same_rest = 1e-9;  // m²: sums of some thousand squares of up to 100 m² are exact to 1e-10
 
 /// What lies over the strip of an edge, nearest first, and its misfit, m²·m².
 struct Strip {
@@ -67,7 +67,7 @@ auto step_in(const std::vector<Look>& looks, double most, const Options& options
        ++i) {
     if (looks[i].inward - looks[i - 1].inward <= same_distance) continue;  // rounding orders them
     const double left = sums[i].residual_level() + (sums.back() - sums[i]).residual();
-    if (left < least - as_little) {
+    if (left < least - same_rest) {
       least = left;
       best = i;
     }
