@@ -15,9 +15,9 @@ auto scan(double noise, double area, double blur, double edge) -> model::Accurac
 
 TEST(Law, prices_grow_with_the_variance_of_the_noise_and_the_area_of_one_error) {
   const auto coarse = decided_by({}, scan(0.2, 10, 0.25, 0.1)), fine = decided_by({}, scan(0.1, 10, 0.25, 0.1));
-  EXPECT_NEAR(coarse.face_price / fine.face_price, 4, 1e-12);
-  EXPECT_NEAR(fine.value_price / (0.1 * 0.1 * 10 * std::log(4.0)), 1, 1e-12);
-  EXPECT_NEAR(fine.face_price / fine.value_price, 3, 1e-12);
+  EXPECT_DOUBLE_EQ(coarse.face_price, 4 * fine.face_price);
+  EXPECT_DOUBLE_EQ(fine.value_price, 0.1 * 0.1 * 10 * std::log(4.0));
+  EXPECT_DOUBLE_EQ(fine.face_price, 3 * fine.value_price);
   EXPECT_GT(decided_by({}, scan(0.1, 40, 0.25, 0.1)).face_price, fine.face_price);
 }
 

@@ -876,7 +876,15 @@ test("distances, heights, angles and areas are measured on models and scan", asy
   const top = await topOf(page, house.id);
   await page.mouse.move(top.x, top.y);
   const origin = await state(page, (s) => s.scene.value!.origin);
-  await expect(page.getByLabel("Coordinates at the pointer")).toContainText(new RegExp(`E ${String(origin[0]).slice(0, 2)}\\d+\\.\\d\\d N`));
+  const pointer = page.getByLabel("Coordinates at the pointer");
+  await expect(pointer).toContainText(/E \d+\.\d\d N \d+\.\d\d/);
+  const [, east, north] = /E (\d+\.\d\d) N (\d+\.\d\d)/.exec((await pointer.textContent())!)!;
+  const corners = house.parts.flatMap((part) => part.plan.outer.points);
+  for (const [axis, shown] of [Number(east), Number(north)].entries()) {
+    const values = corners.map((p) => p[axis]! + origin[axis]!);
+    expect(shown, "the pointer is over the house").toBeGreaterThan(Math.min(...values));
+    expect(shown, "the pointer is over the house").toBeLessThan(Math.max(...values));
+  }
   await page.getByRole("button", { name: "Measure", exact: true }).click();
   const box = page.getByRole("region", { name: "Measure" });
   await page.mouse.click(top.x, top.y);
