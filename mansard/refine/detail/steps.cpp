@@ -167,13 +167,13 @@ auto stepped(Judged judged, const Judge& judge, double most) -> Judged {
   };
   for (auto at = next_of(judged, std::nullopt); at; at = next_of(judged, at->first)) {
     std::optional<Judged> best;
-    const auto consider = [&](const Plan& plan) {
-      if (auto next = judge.cheaper(plan, best ? best->cost : most)) best = std::move(*next);
-    };
     for (const Plan& plan : with_step(judged, at->second, judge)) {
-      consider(plan);
-      if (auto next = judge(plan))
-        if (const Plan moved = refitted(*next, judge.site(), judge.options()); moved != plan) consider(moved);
+      auto next = judge(plan);
+      if (!next) continue;
+      const Plan moved = refitted(*next, judge.site(), judge.options());
+      if (cheaper(next->cost, best ? best->cost : most, judge.options().same_cost)) best = std::move(*next);
+      if (moved == plan) continue;
+      if (auto better = judge.cheaper(moved, best ? best->cost : most)) best = std::move(*better);
     }
     if (best) judged = std::move(*best);
   }
