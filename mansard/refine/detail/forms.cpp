@@ -82,11 +82,7 @@ auto mansard_line(std::vector<Look> looks, const Options& options) -> std::optio
   const auto& mansard = options.mansard;
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   std::ranges::stable_sort(looks, {}, &Look::inward);
-  std::vector<geometry::LineSums> sums(1);
-  for (const Look& look : looks) {
-    sums.push_back(sums.back());
-    sums.back().add(look.inward, look.height, look.weight);
-  }
+  const auto sums = sums_along(looks);
   std::size_t best = 0;
   double least = sums.back().residual();
   for (std::size_t i = fewest; i + fewest < looks.size(); ++i) {
@@ -113,24 +109,13 @@ auto mansard_line(std::vector<Look> looks, const Options& options) -> std::optio
   return Profile{{0, 0}, {0, lower->at_edge}, {knot, height}, {knot + 1, height + slope}};
 }
 
-/// The median: looks where the strip ends see some of the wall behind it.
-auto middle_height(std::span<const Look> looks) -> double {
-  std::vector<double> heights;
-  for (const Look& look : looks) heights.push_back(look.height);
-  return base::median(std::move(heights));
-}
-
 /// A level strip and what stands behind it, of whatever depth parts them best.
 auto setback(std::vector<Look> looks, const Options& options) -> std::vector<Profile> {
   const auto& o = options.setback;
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   std::ranges::stable_sort(looks, {}, &Look::inward);
   std::erase_if(looks, [&](const Look& look) { return look.inward > o.max_depth + o.behind; });
-  std::vector<geometry::LineSums> sums(1);
-  for (const Look& look : looks) {
-    sums.push_back(sums.back());
-    sums.back().add(look.inward, look.height, look.weight);
-  }
+  const auto sums = sums_along(looks);
   std::size_t best = 0;
   double least = o.max_rest * sums.back().residual();
   for (std::size_t i = fewest; i + fewest < looks.size(); ++i) {

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "mansard/geometry/fit.hpp"
+#include "mansard/base/statistics.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -60,6 +61,21 @@ auto raised_line(std::span<const Look> looks, RoofLine start, const Options::Lin
     if (std::abs(line.at_edge - before) < settled) break;
   }
   return line;
+}
+
+auto sums_along(std::span<const Look> looks) -> std::vector<geometry::LineSums> {
+  std::vector<geometry::LineSums> sums(1);
+  for (const Look& look : looks) {
+    sums.push_back(sums.back());
+    sums.back().add(look.inward, look.height, look.weight);
+  }
+  return sums;
+}
+
+auto middle_height(std::span<const Look> looks) -> double {
+  std::vector<double> heights;
+  for (const Look& look : looks) heights.push_back(look.height);
+  return base::median(std::move(heights));
 }
 
 }  // namespace mansard::refine::detail

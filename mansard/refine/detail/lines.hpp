@@ -3,7 +3,9 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "mansard/geometry/fit.hpp"
 #include "mansard/refine/options.hpp"
 
 namespace mansard::refine::detail {
@@ -25,5 +27,11 @@ struct RoofLine {
     -> std::optional<RoofLine>;
 /// The same with the slope given: the weighed robust height at the edge.
 [[nodiscard]] auto raised_line(std::span<const Look> looks, RoofLine start, const Options::Lines& options) -> RoofLine;
+
+/// Running sums: entry i is of the looks before i.
+[[nodiscard]] auto sums_along(std::span<const Look> looks) -> std::vector<geometry::LineSums>;
+
+/// The median: looks where a level strip ends see some of the wall behind it.
+[[nodiscard]] auto middle_height(std::span<const Look> looks) -> double;
 
 }  // namespace mansard::refine::detail

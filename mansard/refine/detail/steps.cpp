@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
-#include "mansard/base/statistics.hpp"
 #include "mansard/geometry/fit.hpp"
 #include "mansard/refine/detail/lines.hpp"
 #include "mansard/refine/detail/order.hpp"
@@ -55,11 +55,7 @@ struct Step {
   double level = 0, depth = 0;
 };
 auto step_in(const std::vector<Look>& looks, double most, const Options& options) -> std::optional<Step> {
-  std::vector<geometry::LineSums> sums(1);
-  for (const Look& look : looks) {
-    sums.push_back(sums.back());
-    sums.back().add(look.inward, look.height, look.weight);
-  }
+  const auto sums = sums_along(looks);
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -73,9 +69,7 @@ auto step_in(const std::vector<Look>& looks, double most, const Options& options
     }
   }
   if (best == 0) return std::nullopt;
-  std::vector<double> low;
-  for (std::size_t i = 0; i < best; ++i) low.push_back(looks[i].height);
-  return Step{base::median(std::move(low)), (looks[best - 1].inward + looks[best].inward) / 2};
+  return Step{middle_height(std::span(looks).first(best)), (looks[best - 1].inward + looks[best].inward) / 2};
 }
 
 /// The profile with a level and a wall instead of its parts `from` to `to`.
