@@ -52,14 +52,13 @@ auto carried(const model::Solid& solid, const View& view, const Site& site, cons
 
 auto bare_faces(const model::Solid& solid, const View& view, const Site& site, const Options& options)
     -> std::vector<std::uint32_t> {
-  constexpr double upright = 1e-6;  // a wall's normal: see view_of
   const auto& o = options.bare;
   const double steepest = geometry::cosine(o.steep), least = static_cast<double>(o.cells) * options.grid;
   std::vector<std::uint32_t> wide, narrow;
   std::vector<bool> steep(solid.faces.size(), false);
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
     const auto& face = solid.faces[f];
-    if (!(face.normal.z > upright)) continue;
+    if (!(face.normal.z > wall_normal)) continue;
     const bool is_wide = width_of(solid, face) >= least;
     (is_wide ? wide : narrow).push_back(f);
     steep[f] = is_wide && face.normal.z < steepest;

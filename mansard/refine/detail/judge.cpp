@@ -39,9 +39,8 @@ void losses_of(std::size_t count, const Kernel& kernel, const std::array<const d
 
 /// A wall within a profile is said with the level before it, which ends there: it has no numbers of its own.
 auto priced_faces(const model::Solid& sketch) -> double {
-  constexpr double upright = 1e-6;  // a wall's normal: see view_of
   return static_cast<double>(std::ranges::count_if(sketch.faces, [](const model::Face& face) {
-    return !(face.provenance && face.provenance->part > 0 && std::abs(face.normal.z) <= upright);
+    return !(face.provenance && face.provenance->part > 0 && std::abs(face.normal.z) <= wall_normal);
   }));
 }
 

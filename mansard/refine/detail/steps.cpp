@@ -110,11 +110,10 @@ auto carrying(const Plan& plan, std::uint32_t ring, std::uint32_t edge, Profile 
 }
 
 auto steep_faces(const Judged& judged) -> std::vector<std::uint32_t> {
-  constexpr double upright = 1e-6;  // a wall's normal: see view_of
   std::vector<std::uint32_t> out;
   for (std::uint32_t f = 0; f < judged.sketch.faces.size(); ++f) {
     const auto& n = judged.sketch.faces[f].normal;
-    if (n.z > upright && n.x * n.x + n.y * n.y > steep * steep * n.z * n.z) out.push_back(f);
+    if (n.z > wall_normal && n.x * n.x + n.y * n.y > steep * steep * n.z * n.z) out.push_back(f);
   }
   return out;
 }

@@ -76,12 +76,9 @@ class Painter {
 }  // namespace
 
 auto view_of(const model::Solid& solid, const Heights& grid, double base) -> View {
-  // Error bound: a sketch's normals are made from directions and slopes; a wall's z is 0, and that of the steepest roof
-  // a kernel takes, one quantum of run over a rise of 15 m, is 1e-6.
-  constexpr double upright = 1e-6;
   Painter painter(solid, grid, base);
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f)
-    if (solid.faces[f].normal.z > upright) painter.paint(f);
+    if (solid.faces[f].normal.z > wall_normal) painter.paint(f);
   return std::move(painter).view();
 }
 

@@ -9,6 +9,10 @@
 
 namespace mansard::refine::detail {
 
+/// Error bound, of the z of a wall's normal: a sketch's normals are made from directions and slopes; a wall's z is 0,
+/// and that of the steepest roof a kernel takes, one quantum of run over a rise of 15 m, is 1e-6.
+constexpr double wall_normal = 1e-6;
+
 struct View {
   std::vector<double> z;            ///< m above the base, per cell of the grid; NaN where the solid is not
   std::vector<std::uint32_t> face;  ///< the face seen; undefined where z is NaN
