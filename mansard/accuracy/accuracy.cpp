@@ -16,9 +16,10 @@ using geometry::Point3;
 
 constexpr std::size_t most_places = 700;
 constexpr double most_samples = 40'000;
-constexpr double finest = 0.5;    // m between places
-constexpr double coarse = 0.6;    // m: a mesh whose vertices are farther apart is sampled
-constexpr double faces_up = 0.5;  // cosine of 60°: steeper is no roof
+constexpr double finest = 0.5;                               // m between places
+constexpr double coarse = 0.6;                               // m: a mesh whose vertices are farther apart is sampled
+constexpr double triangles = 1.5, largest_of_several = 2.5;  // spacings, and m
+constexpr double faces_up = 0.5;                             // cosine of 60°: steeper is no roof
 
 /// Three digits: what a logarithm's last bit says is not that of another processor.
 auto rounded(double value) -> double {
@@ -71,11 +72,11 @@ auto places_over(std::span<const geometry::Polygon> outline, double most) -> std
   return out;
 }
 
-void put_noise(const detail::Cells& cells, std::span<const Point2> places, model::Accuracy& out) {
+void put_noise(const detail::Cells& cells, std::span<const Point2> places, model::Accuracy& out, double least = 0) {
   if (places.empty()) return;
   const double ground = cells.ground_of_one(places);
   out.spacing = rounded(std::sqrt(ground));
-  const auto found = detail::noise_from(cells.residuals(places, ground), ground);
+  const auto found = detail::noise_from(cells.residuals(places, ground, least), ground);
   if (!found) return;
   out.noise = rounded(found->noise);
   out.correlated_area = rounded(found->correlated_area);
@@ -92,10 +93,12 @@ auto sampled(const rays::Scene& scene, std::span<const Point2> places) -> std::v
   return out;
 }
 
+void put(const std::optional<double>& given, double& to) { to = given.value_or(to); }
+
 }  // namespace
 
-auto measure(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<const geometry::Polygon> outline,
-             const Options& o) -> model::Accuracy {
+auto measure_noise(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<const geometry::Polygon> outline,
+                   const Options& o) -> model::Accuracy {
   model::Accuracy out;
   if (!o.noise || !o.correlated_area || !o.spacing) {
     const auto places = places_over(outline, most_places);
@@ -103,11 +106,21 @@ auto measure(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<con
     if (!places.empty() && (out.windows == 0 || out.spacing > coarse)) {
       const double spacing = out.spacing;
       out = {};
-      put_noise(detail::Cells(sampled(scene, places_over(outline, most_samples))), places, out);
+      // A triangle is even, whatever the noise: a disc says something where it has several.
+      const double several = std::min(largest_of_several, triangles * spacing);
+      put_noise(detail::Cells(sampled(scene, places_over(outline, most_samples))), places, out, several);
       out.spacing = spacing;
       if (out.windows > 0) out.correlated_area = std::max(out.correlated_area, rounded(spacing * spacing));
     }
   }
+  put(o.noise, out.noise);
+  put(o.correlated_area, out.correlated_area);
+  put(o.spacing, out.spacing);
+  return out;
+}
+
+auto with_edges(model::Accuracy out, const geometry::Mesh& mesh, const rays::Scene& scene,
+                std::span<const geometry::Polygon> outline, const Options& o) -> model::Accuracy {
   if (!o.blur || !o.edge_noise || !o.walls || !o.offset_x || !o.offset_y || !o.offset_spread) {
     const auto transects = detail::across(outline, mesh, scene);
     if (const auto blur = detail::blur_from(transects)) {
@@ -125,10 +138,6 @@ auto measure(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<con
       out.edges = found->edges;
     }
   }
-  const auto put = [](const std::optional<double>& given, double& to) { to = given.value_or(to); };
-  put(o.noise, out.noise);
-  put(o.correlated_area, out.correlated_area);
-  put(o.spacing, out.spacing);
   put(o.blur, out.blur);
   put(o.edge_noise, out.edge_noise);
   put(o.walls, out.walls);
@@ -136,6 +145,11 @@ auto measure(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<con
   put(o.offset_y, out.offset.y);
   put(o.offset_spread, out.offset_spread);
   return out;
+}
+
+auto measure(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<const geometry::Polygon> outline,
+             const Options& options) -> model::Accuracy {
+  return with_edges(measure_noise(mesh, scene, outline, options), mesh, scene, outline, options);
 }
 
 auto measure_alone(const geometry::Mesh& mesh) -> model::Accuracy {

@@ -39,6 +39,15 @@ struct Options {
 [[nodiscard]] auto measure(const geometry::Mesh& mesh, const rays::Scene& scene,
                            std::span<const geometry::Polygon> outline, const Options& options = {}) -> model::Accuracy;
 
+/// The same in two steps: noise, correlated area and spacing, which the crowns of trees do not change; and, to add to
+/// them, all that is seen along the outline.
+[[nodiscard]] auto measure_noise(const geometry::Mesh& mesh, const rays::Scene& scene,
+                                 std::span<const geometry::Polygon> outline, const Options& options = {})
+    -> model::Accuracy;
+[[nodiscard]] auto with_edges(model::Accuracy scan, const geometry::Mesh& mesh, const rays::Scene& scene,
+                              std::span<const geometry::Polygon> outline, const Options& options = {})
+    -> model::Accuracy;
+
 /// Noise, correlated area and spacing of a mesh alone, over all of it; `edges` and `transects` are 0.
 [[nodiscard]] auto measure_alone(const geometry::Mesh& mesh) -> model::Accuracy;
 

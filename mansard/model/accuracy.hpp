@@ -31,6 +31,15 @@ struct Accuracy {
   [[nodiscard]] auto height_error(double area) const -> double {
     return noise * std::sqrt(correlated_area / std::fmax(area, correlated_area));
   }
+  /// m: root mean square distance of the noise from the plane that suits it best over a disc of this radius, m: within
+  /// 8 % of the quadrature in docs/accuracy.md. A plane takes 3 A / π r² of the variance off a large disc.
+  [[nodiscard]] auto off_plane(double radius) const -> double {
+    constexpr double pi = 3.14159265358979323846;
+    const double x = 2 * pi * radius * radius / correlated_area;  // (r / ℓ)², of A = 2 π ℓ²
+    return noise / std::sqrt(1 + 6 / x + 6.7 / (x * x));
+  }
+  /// m: standard deviation of where an edge is seen, rounded as it is.
+  [[nodiscard]] auto edge() const -> double { return std::sqrt(blur * blur + edge_noise * edge_noise); }
 };
 
 }  // namespace mansard::model

@@ -6,6 +6,7 @@
 
 #include "mansard/base/stopped.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
+#include "mansard/pipeline/detail/decided.hpp"
 #include "mansard/pipeline/detail/every_block.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
 #include "mansard/pipeline/detail/place.hpp"
@@ -75,11 +76,10 @@ auto segment(const model::Scene& scene, const Options& options, const base::Run&
           return result;
         }
         const auto own = block::in_own_frame(block);
-        const detail::Shown shown(own.block,
-                                  detail::crowns_over(own.block, options, inner, tell, result.report, result.warnings));
-        result.report.accuracy = detail::accuracy_of(own.block, shown, options);
+        const auto shown = detail::shown_of(own.block, options, inner, tell, result.report, result.warnings);
         result.segmented =
-            detail::segment_block(shown.block(), shown.mesh(), options, inner, tell, result.report, result.warnings);
+            detail::segment_block(shown->block(), shown->mesh(), detail::decided_by(options, result.report.accuracy),
+                                  inner, tell, result.report, result.warnings);
         detail::place(result.segmented, own);
         result.report.times.total = own_watch.stop();
         result.report.times.stages.insert(result.report.times.stages.begin(), making);

@@ -49,18 +49,12 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("overhang_level", o.overhang_level, "m", {0.01, 1},
               "Distance between the heights at which a slice is read at the edge of a roof.")
       .advanced("a tenth of a usual overhang; not measured");
-  list.number("overhang_melt", o.overhang_melt, "m", {0.01, 2},
-              "Distance over which a scan rounds off the edge of a roof; the roof is read from three times that on.")
-      .advanced("the smoothing of simulated scans; not measured");
   list.number("overhang_hidden", o.overhang_hidden, "m", {0, 2},
               "Maximum distance between the outermost point that a scan shows of eaves and the edge of their roof.")
       .advanced("docs/decisions/0088-measured-overhangs.md");
   list.number("slice_outward", o.slice_outward, "m", {0, 50}, "Distance outside an edge at which its slices begin.")
       .advanced("chosen by hand; not measured");
   list.number("slice_inward", o.slice_inward, "m", {1, 1000}, "Maximum length of a slice inside an edge.")
-      .advanced("chosen by hand; not measured");
-  list.number("slice_margin", o.slice_margin, "m", {0, 20},
-              "Distance from the ends of an edge within which no slice is made, because scans round off corners.")
       .advanced("chosen by hand; not measured");
   list.number("climb_near", o.climb_near, "m", {0.05, 20}, "Distance from an edge within which its wall is looked for.")
       .advanced("chosen by hand; not measured");
@@ -88,8 +82,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("wall_deepest", o.wall_deepest, "m", {0, 20},
               "Maximum distance inside an edge by which a wall moves the start of its roof.")
       .advanced("chosen by hand; not measured");
-  list.number("corner", o.corner, "m", {0, 5}, "Distance over which scans round off gutters and ridges.")
-      .advanced("chosen by hand; not measured");
   list.number("rising_start", o.rising_start, "m", {0, 20},
               "Maximum distance from the wall to the start of a rising roof.")
       .advanced("chosen by hand; not measured");
@@ -103,23 +95,8 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("setback_level", o.setback_level, "m", {0, 20},
               "Maximum height difference within the part before a setback.")
       .advanced("chosen by hand; not measured");
-  list.number("pitch_price", o.pitch_price, "m²", {0, 1000},
-              "Sum of squared errors over the columns that an additional pitch must save.")
-      .advanced("chosen by hand; not measured");
-  list.number("pitch_gain", o.pitch_gain, "m", {0, 20}, "Minimum rise of a pitch.")
-      .advanced("chosen by hand; not measured");
-  list.number("pitch_tolerance", o.pitch_tolerance, "m", {0.001, 20},
-              "Distance within which a slice agrees with one of several pitches.")
-      .advanced("chosen by hand; not measured");
   list.number("single_pitch_tolerance", o.single_pitch_tolerance, "m", {0.001, 20},
               "Distance within which a slice agrees with a single pitch, which represents all of a roof.")
-      .advanced("chosen by hand; not measured");
-  list.number("hip_corner", o.hip_corner, "m", {0, 20},
-              "Distance from the ends of an edge within which slices do not count, because the neighbour's roof begins "
-              "there at a hip.")
-      .advanced("chosen by hand; not measured");
-  list.number("hip_corner_from", o.hip_corner_from, "m", {0, 100},
-              "Minimum length of an edge at whose ends slices do not count.")
       .advanced("chosen by hand; not measured");
   list.number("short_run", o.short_run, "m", {0, 50},
               "Edges shorter than this take the profile of a neighbour, or are walls.")

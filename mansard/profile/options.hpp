@@ -1,4 +1,6 @@
-// The numbers that profile decides by; what each means and where it comes from is told in options.cpp.
+// The numbers that profile decides by; what each means and where it comes from is told in options.cpp. Those that
+// are no options stand for what scans round off and for their noise: profiles are where the search of refine begins,
+// which decides by the scan that was measured, and models are as good with other values (docs/decisions/0122).
 #pragma once
 
 #include <cstddef>
@@ -36,13 +38,13 @@ struct Options {
   double overhang_near = 0.5;    ///< m between the plan's edge and the wall, at most
   double overhang_agree = 0.15;  ///< m; slices whose wall is farther from the median do not count
   double overhang_level = 0.05;  ///< m between heights of the scan that are read
-  double overhang_melt = 0.3;    ///< m; a scan rounds edges off over about so much
+  double overhang_melt = 0.3;    ///< m; a scan rounds edges off over about so much; no option
   double overhang_hidden = 0.5;  ///< m; of the edge of a roof, a sharp wedge, more than that
 
   // Slices.
   double slice_outward = 2.0;  ///< m outside the edge where a slice begins
   double slice_inward = 40.0;  ///< m inside the edge where a slice ends at the latest
-  double slice_margin = 0.3;   ///< m; corners are rounded in scans
+  double slice_margin = 0.3;   ///< m; corners are rounded in scans; no option
   /// Maximum number of slices of an edge. Keeps the time of long edges in bounds; 100 slices were enough for every edge
   /// looked at.
   double slices_per_edge = 100;
@@ -66,7 +68,7 @@ struct Options {
   double far_wall = 0.4;       ///< m before the far wall where a slice ends
   double far_wall_from = 2.0;  ///< m; shorter slices go on to it
   double wall_deepest = 1.5;   ///< m inward of the edge; a wall farther in does not move the start of the roof any more
-  double corner = 0.3;         ///< m; scans round off gutters and ridges
+  double corner = 0.3;         ///< m; scans round off gutters and ridges; no option
   /// Minimum slope of a roof that rises. Chosen by hand; not measured.
   double rising_slope = 0.1;
   /// Maximum slope of a roof along its edge, as a share of the slope across. Chosen by hand; not measured.
@@ -85,7 +87,7 @@ struct Options {
 
   // Setbacks.
   double setback_step = 1.5;  ///< m from the lower roof up
-  /// Number of columns to either side of a setback's wall that a scan smears. Chosen by hand; not measured.
+  /// Number of columns to either side of a setback's wall that a scan smears; no option.
   std::size_t setback_blur = 2;
   /// Minimum number of columns before a setback's wall. Chosen by hand; not measured.
   std::size_t setback_depth = 4;
@@ -97,12 +99,11 @@ struct Options {
   /// Minimum number of columns of a pitch. Chosen by hand; not measured.
   std::size_t pitch_columns = 4;
   double pitch_price = 0.15;  ///< m² · columns: what another pitch must save, 0.1 m over about fifteen columns (3 m of
-                              ///< roof), or more over fewer
-  double pitch_gain = 0.6;       ///< m; scans round off the edges of flat roofs too: what rises less is no pitch
-  double pitch_tolerance = 0.3;  ///< m; a slice within it, over half of what it shows of a pitch, supports the pitch
+                              ///< roof), or more over fewer; no option
+  double pitch_gain = 0.6;  ///< m; scans round off the edges of flat roofs too: what rises less is no pitch; no option
+  double pitch_tolerance =
+      0.3;  ///< m; a slice within it, over half of what it shows of a pitch, supports the pitch; no option
   double single_pitch_tolerance = 1.0;  ///< m; the same for a single pitch, which stands for all that a roof does
-  double hip_corner = 1.0;              ///< m; at a hip the neighbour's roof begins there
-  double hip_corner_from = 2.6;         ///< m; on shorter edges all slices count
   /// Minimum share of an edge's slices that must rise for it to have a pitched roof. Chosen by hand; not measured.
   double pitched_share = 0.4;
   double short_run = 1.0;  ///< m; shorter runs follow a neighbour or stand as walls

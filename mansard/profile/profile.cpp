@@ -58,16 +58,10 @@ auto slices_of(const Polygon& polygon, const Run& run, const detail::SectionInde
   return slices;
 }
 
-/// Whether the roof behind the run is its own: enough of its slices rise inward, those near its corners set aside.
-auto is_pitched(const std::vector<detail::SliceColumns>& slices, double length, const Options& options) -> bool {
-  const double aside = length > options.hip_corner_from ? options.hip_corner : 0;
-  std::size_t counted = 0, rising = 0;
-  for (const auto& slice : slices) {
-    if (slice.along < aside || slice.along > length - aside) continue;
-    ++counted;
-    rising += slice.first < slice.last ? 1 : 0;
-  }
-  return counted > 0 && static_cast<double>(rising) >= options.pitched_share * static_cast<double>(counted);
+/// Whether the roof behind the run is its own: enough of its slices rise inward.
+auto is_pitched(const std::vector<detail::SliceColumns>& slices, const Options& options) -> bool {
+  const auto rising = std::ranges::count_if(slices, [](const auto& slice) { return slice.first < slice.last; });
+  return !slices.empty() && static_cast<double>(rising) >= options.pitched_share * static_cast<double>(slices.size());
 }
 
 /// The roof that the slices agree on, with at most that many pitches; just the wall where they agree on none.
@@ -83,11 +77,11 @@ auto pitched_profile(const std::vector<detail::SliceColumns>& slices, std::size_
 }
 
 /// Adds the profiles that the slices suggest, most pitches first; the wall is always the last of them.
-void suggest(std::vector<detail::SliceColumns>& slices, double length, double height, const Options& options,
+void suggest(std::vector<detail::SliceColumns>& slices, double height, const Options& options,
              std::vector<model::Profile>& profiles) {
   const auto wall = detail::vertical_profile(detail::edge_height(slices, options).value_or(height), options);
   detail::find_rising(slices, options);
-  if (options.quality != Quality::simple && is_pitched(slices, length, options)) {
+  if (options.quality != Quality::simple && is_pitched(slices, options)) {
     for (const std::size_t pitches : {3U, 1U}) {
       if (options.quality == Quality::moderate && pitches > 1) continue;
       auto profile = pitched_profile(slices, pitches, options);
@@ -112,15 +106,14 @@ auto fit_run(const Polygon& polygon, const Run& run, const detail::SectionIndex&
              const Options& options) -> Fitted {
   Fitted fitted;
   auto& profiles = fitted.choices.profiles;
-  const double length = detail::length_of(polygon, run);
   auto slices = slices_of(polygon, run, index, base, options, fitted);
-  suggest(slices, length, height, options, profiles);
+  suggest(slices, height, options, profiles);
   if (options.quality != Quality::high) return fitted;
   // Evidence for a step back comes from the scan as a whole, so only refine() may choose it.
   if (const auto setback = detail::find_setback(slices, options)) {
     auto upper = detail::behind(slices, *setback, options);
     std::vector<model::Profile> beyond;
-    suggest(upper, length, height, options, beyond);
+    suggest(upper, height, options, beyond);
     for (const auto& profile : beyond) profiles.push_back(set_back(profile, *setback));
   }
   return fitted;

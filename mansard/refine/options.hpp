@@ -218,13 +218,8 @@ struct Options {
     double fullness = 0.73;
     /// The maximum height of a structure is exceeded by one sample in this many. Chosen by hand; not measured.
     std::int64_t fullness_part = 20;
-    double hipped_min_area = 16;  ///< m²
-    double fair_area = 30;        ///< m²
-    double fair_rms = 0.45;       ///< m
-    double large_area = 80;       ///< m²
-    /// A structure of at least refine.cuts_large_area is cut out where it explains this share of the part's error.
-    /// Chosen by hand; not measured.
-    double large_gain = 0.8;
+    double fair_area = 30;   ///< m²
+    double fair_rms = 0.45;  ///< m
     /// A line across a part is proposed where it explains at least this share of the part's error. Chosen by hand; not
     /// measured.
     double line_gain = 0.15;
@@ -233,8 +228,6 @@ struct Options {
     double same_share = 0.25;
     /// An outline is ranked lower by this share of its gain for each of its rectangles. Chosen by hand; not measured.
     double shape_price = 0.04;
-    /// An outline along no edge of the part is ranked lower by this share of its gain. Chosen by hand; not measured.
-    double askew_price = 0.25;
     double new_direction = 0.14;                       ///< rad
     static constexpr std::int64_t max_directions = 4;  ///< a limit on the search
     /// Cuts are compared with at most about this many samples; of more, every second or third is used. Chosen by hand;

@@ -1,6 +1,8 @@
 // What was planted in simulated scans is measured: a table of all combinations.
 #include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <utility>
 
 #include "lab/simulate/points.hpp"
 #include "mansard/accuracy/accuracy.hpp"
@@ -108,6 +110,16 @@ TEST(Accuracy, of_planted_scans_is_measured_within_a_fifth) {  // guarantee 3
     }
   EXPECT_GE(table.rows(), 60);
   EXPECT_GE(table.share(), 0.98);
+}
+
+TEST(Accuracy, what_a_plane_leaves_of_noise_is_that_of_the_quadrature) {
+  // docs/accuracy.md: radius over correlation length, share of the variance.
+  constexpr std::pair<double, double> known[]{{0.25, 0.0005}, {0.5, 0.0067}, {1, 0.073},
+                                              {2, 0.373},     {4, 0.745},    {8, 0.921}};
+  model::Accuracy scan;
+  scan.noise = 1, scan.correlated_area = 2 * std::numbers::pi * 1.7 * 1.7;
+  for (const auto& [ratio, share] : known)
+    EXPECT_NEAR(scan.off_plane(1.7 * ratio), std::sqrt(share), 0.08 * std::sqrt(share)) << ratio;
 }
 
 TEST(Accuracy, of_exact_models_is_none) {  // guarantee 2

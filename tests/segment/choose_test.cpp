@@ -386,5 +386,38 @@ TEST(Codes, begin_with_the_module) {
   for (const auto& code : codes()) EXPECT_THAT(code.code, ::testing::StartsWith("segment-"));
 }
 
+/// A house of 4 by 3 m with a bay of 2 by 1 m below it, of which a share is seen at the height of the roof and the rest
+/// as ground.
+auto bay_is_building(double share, double rim) -> bool {
+  const AsciiMap map({"AAAA", "AAAA", "AAAA", ".BB."}, 1);
+  auto mesh = map.roofs({{'A', 6}});
+  const auto add = [&mesh](double from, double to, double z) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const Point2 p : {Point2{1, from}, Point2{3, from}, Point2{3, to}, Point2{1, to}})
+      mesh.vertices.push_back({p.x, p.y, z});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  };
+  add(1 - share, 1, 6);
+  add(0, 1 - share, 0);
+  Options options;
+  options.rim = rim;
+  const auto s = choose(map.arrangement, sweep_edges(1), map.block({"AB"}), rays::Scene(mesh), options);
+  EXPECT_TRUE(s);
+  return s && s->faces[map.face.at('B')].inside;
+}
+
+TEST(Choose, a_bay_as_narrow_as_the_scans_edges_is_building_where_a_roof_is_seen) {
+  EXPECT_TRUE(bay_is_building(0.4, 0.3));
+  EXPECT_FALSE(bay_is_building(0.1, 0.3));
+  EXPECT_FALSE(bay_is_building(0.4, 0));  // a scan with sharp edges shows what is there
+}
+
+TEST(Choose, what_is_along_a_boundary_does_not_tell_the_height_of_a_face) {
+  // Off the rim, half of the bay is left: as much roof as ground in all, and roof alone in the middle.
+  EXPECT_TRUE(bay_is_building(0.6, 0.1));
+  EXPECT_FALSE(bay_is_building(0.45, 0.1));
+}
+
 }  // namespace
 }  // namespace mansard::segment

@@ -13,6 +13,7 @@
 
 #include "mansard/base/run.hpp"
 #include "mansard/geometry/mesh_part.hpp"
+#include "mansard/vegetation/law.hpp"
 
 namespace mansard::vegetation {
 namespace {
@@ -305,6 +306,47 @@ TEST(Vegetation, is_not_looked_for_without_a_mesh_without_an_outline_and_when_sw
   EXPECT_TRUE(find(mesh, std::vector{outline}, {}, off).triangles.empty());
   EXPECT_TRUE(find({}, std::vector{outline}, {}, {}).triangles.empty());
   EXPECT_TRUE(find(mesh, {}, {}, {}).triangles.empty());
+}
+
+/// Independent noise with standard deviation 1, the same on every machine.
+auto noise_at(Point2 p) -> double {
+  const auto hash = [](std::uint64_t v) {  // SplitMix64 (Steele, Lea, Flood 2014)
+    v += 0x9e3779b97f4a7c15U;
+    v = (v ^ (v >> 30U)) * 0xbf58476d1ce4e5b9U;
+    v = (v ^ (v >> 27U)) * 0x94d049bb133111ebU;
+    return v ^ (v >> 31U);
+  };
+  const auto seed = static_cast<std::uint64_t>(std::llround(1000 * (p.x + 500)) * 1'000'003 + std::llround(1000 * p.y));
+  double sum = -6;
+  for (std::uint64_t k = 0; k < 12; ++k) sum += static_cast<double>(hash(12 * seed + k) >> 11U) / 9007199254740992.0;
+  return sum;
+}
+
+auto scan_of(double noise, double area) -> model::Accuracy {
+  model::Accuracy out;
+  out.noise = noise, out.correlated_area = area;
+  return out;
+}
+
+TEST(VegetationLaw, the_noise_of_a_scan_is_no_crown) {
+  // A tree is beside the house in both; only the roof is noisy, over squares of a metre.
+  const auto noisy = [](Point2 p) {
+    return gable(p) + (in_outline(p) ? 0.15 * noise_at({std::floor(p.x), std::floor(p.y)}) : 0);
+  };
+  const auto mesh = both(sheet(ground, 0.25, noisy), ball({6, 10.5, 8}, 2.5, 0.6));
+  const auto crowns_by = [&](const Options& options) { return find(mesh, std::vector{outline}, {}, options).crowns; };
+  const double with_roof = crowns_by({}).front().area;
+  const auto crowns = crowns_by(decided_by({}, scan_of(0.15, 1.0)));
+  ASSERT_EQ(crowns.size(), 1U);
+  EXPECT_NEAR(crowns.front().centre.y, 10.5, 1.0);
+  EXPECT_GT(with_roof, 1.4 * crowns.front().area);
+}
+
+TEST(VegetationLaw, an_accurate_scan_is_compared_as_before) {
+  const auto options = decided_by({}, scan_of(0.02, 0.05));
+  EXPECT_EQ(options.roughness, Options{}.roughness);
+  EXPECT_EQ(options.even, Options{}.even);
+  EXPECT_EQ(options.plane_distance, Options{}.plane_distance);
 }
 
 }  // namespace

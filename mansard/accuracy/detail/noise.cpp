@@ -119,9 +119,9 @@ auto Cells::ground_of_one(std::span<const Point2> places) const -> double {
   return pi * largest_radius * largest_radius * static_cast<double>(places.size()) / std::max(1.0, all);
 }
 
-auto Cells::residuals(std::span<const Point2> places, double ground) const -> std::vector<Residual> {
+auto Cells::residuals(std::span<const Point2> places, double ground, double least) const -> std::vector<Residual> {
   std::vector<double> all;
-  for (double radius = std::sqrt(full * ground / pi) * 1.05; radius < largest_radius; radius *= growth)
+  for (double radius = std::max(least, std::sqrt(full * ground / pi) * 1.05); radius < largest_radius; radius *= growth)
     all.push_back(radius);
   if (!all.empty() && all.back() < largest_radius / 1.15) all.push_back(largest_radius);
   std::vector<std::optional<Residual>> found(all.size());

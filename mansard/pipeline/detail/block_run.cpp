@@ -2,18 +2,19 @@
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
+#include "mansard/pipeline/detail/decided.hpp"
 #include "mansard/pipeline/detail/left_out.hpp"
 #include "mansard/pipeline/detail/overhangs.hpp"
 #include "mansard/pipeline/detail/shown.hpp"
 #include "mansard/pipeline/detail/uncovered.hpp"
 #include "mansard/report/attributes.hpp"
 #include "mansard/report/measures.hpp"
+#include "mansard/solid/solid.hpp"
 
 #include <algorithm>
 #include <limits>
 
 #include "mansard/extrude/align.hpp"
-#include "mansard/refine/law.hpp"
 
 namespace mansard::pipeline::detail {
 namespace {
@@ -54,28 +55,6 @@ void measure(PartResult& part, const rays::Scene& mesh, const Options& options) 
   if (std::isfinite(mse)) part.mse = mse;
 }
 
-/// What no part of the mesh shows is as high as a footprint of which it shows nothing.
-auto profiling_of(const Options& options) -> profile::Options {
-  profile::Options out = options.profile;
-  out.assumed_height = options.assumed_height;
-  return out;
-}
-
-/// Twice the smallest detail and noise: prices are their squares (docs/decisions/0047-moderate-detail.md).
-constexpr double fewer_details = 4;
-
-/// A request for simpler profiles is not answered with finer ones by the refinement.
-auto refining_of(const Options& options, const model::Accuracy& accuracy) -> refine::Options {
-  refine::Options out = refine::decided_by(options.refine, accuracy);
-  out.forms.cap_percentile = options.profile.cap_ridge;
-  out.forms.cap_clearance = options.profile.cap_clear;
-  out.samples.level_band = options.profile.cap_level;
-  if (options.profile.quality == profile::Quality::simple) out.effort = refine::Effort::caps;
-  if (options.profile.quality == profile::Quality::moderate)
-    for (double* price : {&out.face_price, &out.part_price, &out.value_price}) *price *= fewer_details;
-  return out;
-}
-
 auto not_raised(const base::Diagnostic& why, const block::Block& block, std::size_t part) -> base::Diagnostic {
   return base::warning(why.code, "a part of the segmentation could not be raised: " + why.message,
                        block.name + " part " + std::to_string(part));
@@ -87,7 +66,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const Shown& shown, 
   const auto& block = shown.block();
   const auto& mesh = shown.mesh();
   base::Watch fitting;
-  const auto fitted = profile::fit(segmentation, block, mesh, profiling_of(options), run, shown.above());
+  const auto fitted = profile::fit(segmentation, block, mesh, options.profile, run, shown.above());
   out.report.times.stages.push_back({"profile", fitting.stop()});
 
   base::Watch refining;
@@ -107,8 +86,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const Shown& shown, 
     part_of_draft.push_back(i);
     drafts.push_back({feature, fitted[i].plan, fitted[i].caps, fitted[i].alternatives});
   }
-  auto refined = refine::refine(drafts, mesh, refining_of(options, out.report.accuracy), with_grid(options.extrude),
-                                run, shown.above());
+  auto refined = refine::refine(drafts, mesh, options.refine, with_grid(options.extrude), run, shown.above());
   for (auto& from : refined.parts) {
     PartResult part;
     part.feature = from.owner;
@@ -171,6 +149,7 @@ void align(std::vector<PartResult>& parts, const Options& options, const base::R
     if (!raised || raised->outcome != extrude::Outcome::full) return;
     auto& part = parts[i];
     if (raised->solid.faces.size() > part.model.solid.faces.size()) return;
+    if (is_another(raised->solid, part.model.solid, options.extrude.tolerance)) return;
     part.plan = *aligned[i];
     part.model.solid = std::move(raised->solid);
   });
@@ -274,6 +253,12 @@ auto measured(const block::Block& block, const rays::Scene& mesh, const rays::Sc
 
 }  // namespace
 
+auto is_another(const model::Solid& moved, const model::Solid& before, double most) -> bool {
+  double area = 0;
+  for (const auto& face : before.faces) area += solid::area(before, face);
+  return std::abs(solid::volume(moved) - solid::volume(before)) > most * area;
+}
+
 auto unsegmented(const block::Block& block, const base::Diagnostic& why) -> report::SegmentedBlock {
   report::SegmentedBlock out;
   out.name = block.name;
@@ -282,14 +267,15 @@ auto unsegmented(const block::Block& block, const base::Diagnostic& why) -> repo
   return out;
 }
 
-auto run_block(const block::Block& block, const Options& options, const base::Run& run, const Tell& tell, Keep keep)
+auto run_block(const block::Block& block, const Options& asked, const base::Run& run, const Tell& tell, Keep keep)
     -> BlockResult {
   base::Watch watch;
   BlockResult out;
   report::BlockReport& report = out.report;
-  const Shown shown(block, crowns_over(block, options, run, tell, report, out.warnings));
+  const auto seen = shown_of(block, asked, run, tell, report, out.warnings);
+  const Options options = decided_by(asked, report.accuracy);
+  const Shown& shown = *seen;
   const auto& mesh = shown.whole();
-  report.accuracy = stage("accuracy", tell, report, [&] { return accuracy_of(block, shown, options); });
   report::SegmentedBlock segmented =
       segment_block(shown.block(), shown.mesh(), options, run, tell, report, out.warnings);
 

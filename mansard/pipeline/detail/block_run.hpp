@@ -1,6 +1,8 @@
 // One block through every stage, from its mesh to its checked solids.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -16,13 +18,16 @@ namespace mansard::pipeline::detail {
 /// Receives the name of every stage as it begins.
 using Tell = std::function<void(std::string_view)>;
 
-/// Does the work and adds its time to the report.
+/// Does the work and adds its time to that of the stage in the report.
 template <class Work>
 [[nodiscard]] auto stage(const char* name, const Tell& tell, report::BlockReport& report, Work&& work) {
   tell(name);
   base::Watch watch;
   auto product = work();
-  report.times.stages.push_back({name, watch.stop()});
+  const auto spent = watch.stop();
+  const auto earlier = std::ranges::find(report.times.stages, name, &report::StageTime::stage);
+  if (earlier == report.times.stages.end()) report.times.stages.push_back({name, spent});
+  else earlier->spent = base::combined(std::array{earlier->spent, spent});
   return product;
 }
 
@@ -73,8 +78,13 @@ void add_eaves(const PartResult::EavesSeen& eaves, model::Attributes& attributes
 /// The warning that the union of a place's footprints could not be computed for its scores.
 [[nodiscard]] auto union_unknown(const std::string& subject) -> base::Diagnostic;
 
+/// Whether a solid whose outline was moved by at most so many metres has another roof: where an outline is nearly
+/// pinched, a hair decides whether the roof of one side runs through to the other. No plane moves farther than its
+/// wall.
+[[nodiscard]] auto is_another(const model::Solid& moved, const model::Solid& before, double most) -> bool;
+
 /// From slices to the segmentation. Never fails: what goes wrong is in `failure`, among the warnings and in the report.
-/// `report` has the accuracy of the scan.
+/// `options` follow from the accuracy of the scan (decided.hpp).
 [[nodiscard]] auto segment_block(const block::Block& block, const rays::Scene& mesh, const Options& options,
                                  const base::Run& run, const Tell& tell, report::BlockReport& report,
                                  std::vector<base::Diagnostic>& warnings) -> report::SegmentedBlock;

@@ -29,14 +29,6 @@ void enter(const segment::Segmentation& chosen, report::BlockReport& report) {
   report.nodes = chosen.nodes;
 }
 
-/// m: how far a wall in the scan is from its footprint for the scan's sake, or the survey's. Lines that are nearer to
-/// each other are one; where all walls are exactly on the footprints, none of their corners may move.
-auto snap_of(const fracture::Options& options, const model::Accuracy& scan) -> double {
-  constexpr double least = 0.002;  // m: twice what footprints are rounded to in most files
-  if (scan.edges == 0) return options.snap;
-  return std::min(options.snap, std::max({least, scan.edge_noise, scan.offset_spread}));
-}
-
 auto region_of(const block::Block& block) -> geometry::Box2 {
   geometry::Box2 region;
   for (const auto& polygon : block.outline)
@@ -59,18 +51,14 @@ auto segment_block(const block::Block& block, const rays::Scene& mesh, const Opt
 
   const auto stack = stage("slice", tell, report, [&] { return slice::cut(block, options.slice, run); });
   auto sweeps = stage("sweep", tell, report, [&] {
-    sweep::Options sweeping = options.sweep;
-    sweeping.step_ground = options.segment.min_height;  // what is no building has no roof
-    auto edges = sweep::find_edges(stack, block, sweeping, run);
+    auto edges = sweep::find_edges(stack, block, options.sweep, run);
     // What measures eaves has to have the walls below them.
     if (options.profile.overhangs == profile::Overhangs::off)
-      edges = sweep::under_eaves(std::move(edges), block, mesh, sweeping);
-    return sweep::with_roof_steps(std::move(edges), block, mesh, sweeping, run);
+      edges = sweep::under_eaves(std::move(edges), block, mesh, options.sweep);
+    return sweep::with_roof_steps(std::move(edges), block, mesh, options.sweep, run);
   });
   auto arrangement = stage("fracture", tell, report, [&] {
-    fracture::Options fracturing = options.fracture;
-    fracturing.snap = snap_of(options.fracture, report.accuracy);
-    return fracture::arrange(segment::cuts_of(sweeps, block, options.segment), region_of(block), fracturing, run);
+    return fracture::arrange(segment::cuts_of(sweeps, block, options.segment), region_of(block), options.fracture, run);
   });
   report.slices = stack.slices.size();
   for (const auto& slice : stack.slices) report.slice_segments += slice.segments.size();

@@ -424,35 +424,6 @@ void paint(const Dormer& dormer, const Heights& grid, std::vector<double>& z) {
     }
 }
 
-auto straightened(const Judged& judged, const Site& site) -> std::optional<Plan> {
-  std::vector<double> last(judged.plan.profiles.size(), 0);
-  for (const auto cell : site.cells) {
-    if (std::isnan(judged.view.z[cell])) continue;
-    const auto& face = judged.sketch.faces[judged.view.face[cell]];
-    if (face.kind != model::FaceKind::side || !face.provenance || face.provenance->ring != 0) continue;
-    const auto& points = judged.plan.outer.points;
-    const auto edge = face.provenance->edge;
-    const Point2 along = geometry::normalised(points[(edge + 1) % points.size()] - points[edge]);
-    auto& farthest = last[judged.plan.outer.profile_of_edge[edge]];
-    farthest = std::max(farthest, dot(site.measured.centre(cell) - points[edge], geometry::left_of(along)));
-  }
-  Plan out = judged.plan;
-  bool any = false;
-  for (std::size_t p = 0; p < out.profiles.size(); ++p) {
-    const auto& profile = judged.plan.profiles[p];
-    if (profile.size() < 4 || profile[1].inward > 0 || last[p] <= profile[profile.size() - 2].inward) continue;
-    const auto &a = profile[profile.size() - 2], &b = profile.back();
-    if (b.inward <= a.inward) continue;
-    const double slope = (b.height - a.height) / (b.inward - a.inward);
-    const double top = a.height + slope * (last[p] - a.inward);
-    if (top <= profile[1].height) continue;
-    out.profiles[p] = {{0, 0}, profile[1], {last[p], top}};
-    any = true;
-  }
-  if (!any) return std::nullopt;
-  return out;
-}
-
 auto with_hole(const Plan& host, const Dormer& dormer) -> Plan {
   Plan out = host;
   const auto& p = dormer.plan.outer.points;

@@ -33,10 +33,6 @@ enum class Where : std::uint8_t {
 /// Adds the dormer to a roof's heights above the base, by cell of the grid.
 void paint(const Dormer& dormer, const Heights& grid, std::vector<double>& z);
 
-/// The roof with one slope from eaves to ridge where it has several, a row of dormers looks like a mansard from afar.
-/// None where it has no such slopes.
-[[nodiscard]] auto straightened(const Judged& judged, const Site& site) -> std::optional<model::Plan>;
-
 /// The host's plan with a hole for the dormer.
 [[nodiscard]] auto with_hole(const model::Plan& host, const Dormer& dormer) -> model::Plan;
 

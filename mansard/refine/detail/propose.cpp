@@ -29,7 +29,7 @@ struct Cut {
   Mask mask;
   carve::Errors errors;
   double gain = 0;    ///< m²·m²
-  double ranked = 0;  ///< the gain, less of outlines that are complicated or askew
+  double ranked = 0;  ///< the gain, less of outlines that are complicated
 };
 
 /// Area over the longer side of its box along the frame, metres.
@@ -51,12 +51,8 @@ auto coherent(const carve::Raster& raster, const Cut& cut, const Options& option
   const double rms = carve::unevenness_of(raster, core, cut.frame, options.surfaces);
   const double area = (inside ? e.inside : e.outside).count * raster.cell_area();
   const bool fair = area >= o.fair_area;
-  if (rms <= (fair ? o.fair_rms : o.smooth_rms) &&
-      (rms <= o.crisp_rms || fair || carve::fullness_of(raster, of_it, o.fullness_part) >= o.fullness))
-    return true;
-  const bool may_be_hipped = inside && area >= o.hipped_min_area && area < o.large_area;
-  if (may_be_hipped && carve::hipped_error(raster, core, cut.polygon) <= o.crisp_rms) return true;
-  return area >= o.large_area && cut.gain >= o.large_gain * e.whole.model * raster.cell_area();
+  return rms <= (fair ? o.fair_rms : o.smooth_rms) &&
+         (rms <= o.crisp_rms || fair || carve::fullness_of(raster, of_it, o.fullness_part) >= o.fullness);
 }
 
 /// The cuts of one part as they are found, held against the cells as measured.
@@ -77,7 +73,7 @@ class Cuts {
     if (!(cut.gain >= least_gain_)) return;
     if (shape == 0 && gain < o.line_gain * cut.errors.whole.best) return;
     if (shape > 0 && !coherent(raster_, cut, options_)) return;
-    cut.ranked = cut.gain * (1 - o.shape_price * shape) * (frame.of_part ? 1 : 1 - o.askew_price);
+    cut.ranked = cut.gain * (1 - o.shape_price * shape);
     found_.push_back(std::move(cut));
   }
 

@@ -15,7 +15,6 @@ namespace mansard::refine::detail::carve {
 /// Axes of the plane: first points along `axis`, second to its left.
 struct Frame {
   geometry::Point2 axis{1, 0};  ///< unit
-  bool of_part = true;          ///< edges of the part go along it
   [[nodiscard]] auto to(geometry::Point2 p) const -> geometry::Point2 {
     return {dot(p, axis), dot(p, geometry::left_of(axis))};
   }

@@ -269,7 +269,7 @@ auto own_direction(const Raster& raster, const Region& region, const Options::Re
   if (total <= 0 || std::abs(sum) < options.agreement * total) return false;
   const double angle = geometry::arc_tangent(sum.imag(), sum.real()) / 4;
   const geometry::Point2 own{geometry::cosine(angle), geometry::sine(angle)};
-  direction = {raster.frame.back(own), false};
+  direction = {raster.frame.back(own)};
   return true;
 }
 

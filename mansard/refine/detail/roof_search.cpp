@@ -234,7 +234,9 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   if (search == Search::quick || best.cost > options.hopeless * worth) return best;
   for (std::int64_t round = 0; round < options.rounds; ++round) {
     const double cost = best.cost;
-    best = supported(settle(descend(std::move(best), draft, judge), judge), judge);
+    best = settle(descend(std::move(best), draft, judge), judge);
+    if (best.cost - best.unsupported > worth) return best;
+    best = supported(std::move(best), judge);
     if (best.cost > options.round_gain * cost) break;
   }
   if (best.plan != before) changed.push_back(change_of(before, best.plan) + error_of(misfit, best.misfit, judge));

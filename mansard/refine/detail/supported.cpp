@@ -76,31 +76,46 @@ auto variants_of(const Judged& judged, std::uint32_t bare, const Judge& judge) -
   return out;
 }
 
+/// The cheapest roof without that bare face; none where that costs no less.
+auto without(const Judged& judged, std::uint32_t bare, const Judge& judge) -> std::optional<Judged> {
+  auto plans = variants_of(judged, bare, judge);
+  std::ranges::move(with_step(judged, bare, judge), std::back_inserter(plans));
+  std::vector<std::optional<Judged>> each(plans.size());
+  base::parallel_for(plans.size(), [&](std::size_t i) {
+    auto next = judge(plans[i]);
+    if (!next) return;
+    const Plan moved = refitted(*next, judge.site(), judge.options());
+    if (auto better = moved == next->plan ? std::nullopt : judge.cheaper(moved, std::min(next->cost, judged.cost)))
+      each[i] = std::move(*better);
+    else if (cheaper(next->cost, judged.cost, judge.options().same_cost)) each[i] = std::move(*next);
+  });
+  std::optional<Judged> best;
+  for (auto& next : each)
+    if (next && cheaper(next->cost, best ? best->cost : judged.cost, judge.options().same_cost))
+      best = std::move(*next);
+  return best;
+}
+
 }  // namespace
 
 auto supported(Judged judged, const Judge& judge) -> Judged {
   if (judge.site().sorted.empty()) return judged;
+  std::vector<std::optional<model::Provenance>> tried;  // a cap has none
+  bool changed = false;
   for (std::size_t left = 2 * judged.bare.size(); left > 0; --left) {
-    std::vector<Plan> plans;
-    for (const auto bare : judged.bare) {
-      std::ranges::move(variants_of(judged, bare, judge), std::back_inserter(plans));
-      std::ranges::move(with_step(judged, bare, judge), std::back_inserter(plans));
-    }
-    std::vector<std::optional<Judged>> each(plans.size());
-    base::parallel_for(plans.size(), [&](std::size_t i) {
-      auto next = judge(plans[i]);
-      if (!next) return;
-      const Plan moved = refitted(*next, judge.site(), judge.options());
-      if (auto better = moved == next->plan ? std::nullopt : judge.cheaper(moved, std::min(next->cost, judged.cost)))
-        each[i] = std::move(*better);
-      else if (cheaper(next->cost, judged.cost, judge.options().same_cost)) each[i] = std::move(*next);
+    const auto next = std::ranges::find_if(judged.bare, [&](auto bare) {
+      return std::ranges::find(tried, judged.sketch.faces[bare].provenance) == tried.end();
     });
-    std::optional<Judged> best;
-    for (auto& next : each)
-      if (next && cheaper(next->cost, best ? best->cost : judged.cost, judge.options().same_cost))
-        best = std::move(*next);
-    if (!best) break;
-    judged = std::move(*best);
+    if (next == judged.bare.end()) {
+      if (!std::exchange(changed, false)) break;
+      tried.clear();  // beside what changed, others may do now
+      continue;
+    }
+    tried.push_back(judged.sketch.faces[*next].provenance);
+    if (auto better = without(judged, *next, judge)) {
+      judged = std::move(*better);
+      changed = true;
+    }
   }
   return judged;
 }

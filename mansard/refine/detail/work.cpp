@@ -195,7 +195,7 @@ auto Work::as_one(const Piece& a, const Piece& b, const Union& both) const -> st
   const double worth = cost_of(a, b);
   if (both.roof.cost >= options_.joins.quick_excess * worth) return std::nullopt;
   auto made = roofed(std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, Search::thorough,
-                     std::numeric_limits<double>::infinity(), both.known);
+                     worth, both.known);
   if (!made || !cheaper(made->roof.cost, worth, options_.same_cost)) return std::nullopt;
   made->changes.insert(made->changes.begin(), "parts of " + square_metres(a) + " and " + square_metres(b) +
                                                   " joined under one roof, at a cost of " +
@@ -298,16 +298,10 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
     if (!thorough) return;
     if (auto again = roofed(piece.draft_index, without, piece.draft)) consider(std::move(again->roof), without);
   };
-  // In a row of dormers the search has taken the roof for one with a steep foot and a flat top.
-  if (const auto plan = straightened(piece.roof, all))
-    if (const auto plain = Judge(all, options_, raising_, run_)(*plan)) try_beside_dormers_of(*plain, false);
   try_beside_dormers_of(piece.roof, true);
   constexpr int rounds = 3;  // a better roof shows more of them
   for (int round = 0; round < rounds && best && std::exchange(better, false); ++round) {
     const Judged roof = best->roof;
-    if (const auto plan = straightened(roof, best->without))
-      if (const auto plain = Judge(best->without, options_, raising_, run_)(*plan))
-        try_beside_dormers_of(*plain, false);
     try_beside_dormers_of(roof, false);
   }
   if (!best || !cheaper(best->cost, most, options_.same_cost)) return std::nullopt;

@@ -40,6 +40,24 @@ auto spread(const Ring& ring, double area, const Options& options) -> std::vecto
   return points;
 }
 
+/// Of the samples, how many must be clear of the rim to stand for a face, and how many of one that is all rim must be
+/// roof: the others may be of what is beside it.
+constexpr double enough = 0.25;
+
+/// m: what the face is taken for, and what it reaches where the scan shows what is beside it, too.
+struct Seen {
+  double height = 0, reached = 0;
+};
+auto seen_on(const std::vector<double>& sorted, std::vector<double> clear, const Options& options) -> Seen {
+  const double median = base::mean_median_of_sorted(sorted);
+  if (options.rim == 0) return {median, median};
+  if (static_cast<double>(clear.size()) < enough * static_cast<double>(sorted.size()))
+    return {median, base::percentile_of_sorted(sorted, 1 - enough)};
+  std::ranges::sort(clear);
+  const double middle = base::mean_median_of_sorted(clear);
+  return {middle, middle};
+}
+
 struct MemberBoxes {
   const block::Member* member;
   std::vector<Box2> boxes;  ///< of its polygons
@@ -85,6 +103,7 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
   Evidence evidence{std::vector<FaceEvidence>(count), std::vector<FaceSamples>(count),
                     std::vector<double>(count, block.ground)};
   std::vector<double>& ground = evidence.ground;
+  std::vector<double> reached(count, 0);
 
   base::parallel_for(count, [&](std::size_t f) {
     FaceEvidence& face = evidence.faces[f];
@@ -98,19 +117,25 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
     const std::vector<Point2> points = spread(ring, arrangement.faces[f].area, options);
     std::vector<std::size_t> hits(near.size(), 0);
     std::size_t inside = 0;
+    std::vector<double> clear;  // off the rim
     for (const Point2 p : points) {
       bool in = false;
       for (std::size_t i = 0; i < near.size(); ++i)
         if (is_in(members[near[i]], p)) ++hits[i], in = true;
       const auto z = mesh.top(p);
       if (z) samples.heights.push_back(*z);
+      if (z && options.rim > 0 && geometry::boundary_distance({ring, {}}, p) >= options.rim) clear.push_back(*z);
       if (in) ++inside;
     }
     std::ranges::sort(samples.heights);
     const auto total = static_cast<double>(points.size());
     face.gis_share = static_cast<double>(inside) / total;
     face.seen = !samples.heights.empty();
-    if (face.seen) face.height = base::mean_median_of_sorted(samples.heights);
+    if (face.seen) {
+      const auto [height, most_of_it] = seen_on(samples.heights, std::move(clear), options);
+      face.height = height;
+      reached[f] = face.gis_share > options.surely_inside ? most_of_it : height;
+    }
     std::size_t most = 0;
     for (std::size_t i = 0; i < near.size(); ++i) {
       if (hits[i] == 0) continue;
@@ -131,7 +156,7 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
   for (std::size_t f = 0; f < count; ++f) {
     FaceEvidence& face = evidence.faces[f];
     face.inside = face.gis_share >= options.gis_ratio &&
-                  (face.seen ? face.height - ground[f] >= options.min_height : face.gis_share > options.surely_inside);
+                  (face.seen ? reached[f] - ground[f] >= options.min_height : face.gis_share > options.surely_inside);
   }
   return evidence;
 }
