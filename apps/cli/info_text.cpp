@@ -1,10 +1,10 @@
 // The report on a file as text.
 #include <algorithm>
-#include <map>
 
 #include "apps/cli/info.hpp"
 #include "apps/cli/layout.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/cloud/classes.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -189,13 +189,8 @@ void add_layer_names(const Json& layers, Lines& lines) {
 
 /// As the LAS specification calls them.
 auto class_name(const std::string& number) -> std::string {
-  static const std::map<std::string, std::string> names{
-      {"0", "never classified"}, {"1", "unclassified"},      {"2", "ground"},
-      {"3", "low vegetation"},   {"4", "medium vegetation"}, {"5", "high vegetation"},
-      {"6", "building"},         {"7", "low noise"},         {"9", "water"},
-      {"17", "bridge deck"},     {"18", "high noise"}};
-  const auto at = names.find(number);
-  return at == names.end() ? number : number + " " + at->second;
+  const auto name = cloud::class_name(static_cast<std::uint8_t>(std::stoi(number)));
+  return name.empty() ? number : number + " " + std::string(name);
 }
 
 void add_points(const Json& info, Lines& lines) {

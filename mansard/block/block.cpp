@@ -136,11 +136,14 @@ void set_ground(Block& block, const model::Scene& scene, const Surroundings& aro
   const Point3 origin = as_point(block.origin);
   const auto samples = detail::ground_samples(around.mesh, around.shapes, block.members.size(), options);
   std::optional<double> of_block;
+  bool seen = true;
+  std::size_t without = 0;
   const auto fall_back = [&]() -> std::optional<double> {
     if (of_block) return of_block;
     std::vector<detail::Sample> all;
     for (const auto& some : samples) all.insert(all.end(), some.begin(), some.end());
     of_block = detail::percentile(std::move(all), share, options.ground_area);
+    seen = of_block.has_value();
     if (!of_block) of_block = detail::percentile(detail::surface_samples(block.mesh), rest, 0);
     if (!of_block) of_block = detail::percentile(detail::surface_samples(around.mesh), rest, 0);
     if (!of_block)
@@ -151,12 +154,22 @@ void set_ground(Block& block, const model::Scene& scene, const Surroundings& aro
   for (std::size_t i = 0; i < block.members.size(); ++i) {
     auto own = scene.terrain ? detail::terrain_along(*scene.terrain, around.shapes[i], origin, options) : std::nullopt;
     if (!own) own = detail::percentile(samples[i], share, options.ground_area);
-    if (!own) own = fall_back();
+    if (!own) {
+      own = fall_back();
+      without += seen ? 0 : 1;
+    }
     if (!own) block.ground_known = false;
     block.members[i].ground = own ? model::rounded(*own, ground_unit) : 0;
     heights.push_back(block.members[i].ground);
   }
   block.ground = heights.empty() ? 0 : base::mean_median(std::move(heights));
+  if (without > 0 && block.ground_known)
+    block.warnings.push_back(base::warning(
+        "block-ground-unseen",
+        "the scan shows no ground around " + std::to_string(without) + " of " + std::to_string(block.members.size()) +
+            (block.members.size() == 1 ? " building" : " buildings") +
+            "; the lowest surface nearby was taken, which may be a roof: heights and volumes may be too small. Give a "
+            "terrain model (--dtm), or a scan with ground"));
 }
 
 /// Moves everything by whole metres.
@@ -299,6 +312,10 @@ auto codes() -> std::vector<base::Code> {
   return {
       {"block-outline", "The union of a block's footprints, or of the gaps between them, could not be computed.",
        "The outline of the block keeps its gaps, or consists of the single footprints; repair the footprints there.",
+       0},
+      {"block-ground-unseen", "No ground is visible in the scan around a block, nor in a terrain model.",
+       "The base of its buildings is as high as the lowest surface nearby, which may be a roof. Give a terrain model "
+       "(--dtm) or a scan with ground.",
        0}};
 }
 

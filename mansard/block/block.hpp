@@ -31,7 +31,7 @@ struct Block {
   double ground = 0;                         ///< z, metres: the median of the members'
   bool ground_known = true;                  ///< false where neither terrain nor mesh is near; then all grounds are 0
   std::array<std::int64_t, 3> origin{};      ///< of its own frame, in that of the scene; whole metres
-  std::vector<base::Diagnostic> warnings{};  ///< "block-outline", without subject
+  std::vector<base::Diagnostic> warnings{};  ///< "block-outline", "block-ground-unseen", without subject
 };
 
 /// A block in its own frame, which begins at whole metres below it, and with its members in an order of their own: all

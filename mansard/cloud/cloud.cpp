@@ -96,6 +96,13 @@ auto option_list(Options& o) -> base::OptionList {
               "automatically, by "
               "class where a tile has points of class 6 and else by shape; or not at all, as the top of everything.")
       .source("automatic by default");
+  list.string("building_classes", o.building_classes, "Classes of points that are buildings, with commas: 6,67.")
+      .source("class 6 of ASPRS; France has 67 for other buildings");
+  list.string("ground_classes", o.ground_classes, "Classes of points that are the ground, with commas: 2,66.")
+      .source("class 2 of ASPRS");
+  list.string("left_out_classes", o.left_out_classes,
+              "Classes of points that are left out beside those of noise (7 and 18), with commas.")
+      .source("empty by default");
   list.number("step", o.step, "m", {0.1, 10}, "Difference in height between adjacent cells that is a wall.")
       .source("half a storey; lower steps become slopes")
       .number("gap", o.gap, "m²", {0, 100}, "Holes in a surface that are no larger are filled.")

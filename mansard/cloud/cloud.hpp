@@ -41,6 +41,7 @@ struct Options {
   double points_per_large_cell = 2;              ///< the same of cells of 1 m and more
   double minimum_cell = 0.25, maximum_cell = 2;  ///< m
   Buildings buildings = Buildings::automatic;
+  std::string building_classes = "6", ground_classes = "2", left_out_classes;  ///< with commas; classes.hpp reads them
   double building_share = 0.002;  ///< of a tile's points that must be of class 6 for `automatic`
   double step = 1.0;              ///< m; a difference in height between adjacent cells that is a wall
   double step_slope = 2.2;        ///< m/m; the same, as a slope: 65.6°

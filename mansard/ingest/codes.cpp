@@ -41,6 +41,10 @@ auto own_codes() -> std::vector<base::Code> {
        "Write the file again if only parts of it are to be read.", 0},
       {"ingest-points-crs", "The record of a point cloud's CRS is not valid, and is not used.",
        "Say --crs EPSG:n for the working CRS, and give points that are in it.", 0},
+      {"ingest-points-classes", "A point cloud has classes that the LAS specification reserves or leaves to users.",
+       "Look up what its producer uses them for, and name them with --cloud-building-classes, --cloud-ground-classes "
+       "or --cloud-left-out-classes.",
+       0},
       {"ingest-points-surface", "How a surface was made of point clouds.",
        "Nothing to do; the options of the group cloud change it.", 0},
       {"ingest-raster", "A raster has no heights that can be used, has no georeference, or is in another place.",

@@ -384,6 +384,21 @@ TEST(Ground, of_a_house_without_a_street_is_its_neighbours_or_the_foot_of_the_me
   EXPECT_FALSE(partition(scene_of({}, {{box(0, 0, 10, 10)}}), {})[0].ground_known);
 }
 
+TEST(Ground, that_no_scan_shows_is_told) {
+  const auto warnings_of = [](const model::Scene& scene) {
+    const auto blocks = partition(scene, {});
+    EXPECT_EQ(blocks.size(), 1U);
+    return blocks.empty() ? std::vector<base::Diagnostic>() : blocks.front().warnings;
+  };
+  const std::vector<std::vector<Polygon>> two{{box(0, 0, 10, 10)}, {box(10, 0, 20, 10)}};
+  const auto roofs = warnings_of(scene_of(field(0, 0, 20, 10, 1, level(9)), two));  // as delivered: roofs only
+  ASSERT_EQ(roofs.size(), 1U);
+  EXPECT_EQ(roofs[0].code, "block-ground-unseen");
+  EXPECT_THAT(roofs[0].message, ::testing::HasSubstr("around 2 of 2 buildings"));
+  const auto house = [](Point2 p) { return p.x > 0 && p.x < 20 && p.y > 0 && p.y < 10 ? 9.0 : 0.0; };
+  EXPECT_TRUE(warnings_of(scene_of(field(-8, -8, 28, 18, 1, house), two)).empty());
+}
+
 TEST(Ground, is_the_terrain_where_that_is_known_along_the_outline) {
   // The mesh says 3, the terrain rises by 1 m in 10 to the east and ends in the middle of the third house.
   std::vector<std::vector<Polygon>> shapes;

@@ -66,12 +66,9 @@ auto records_hash(const formats::LasFile& file) -> base::Result<std::string> {
 
 /// What is refused, and by which words.
 auto refused() -> std::map<std::string, std::string> {
-  return {{"variety/pdrf4-1.3.las", "point format 4 has waveforms"},
-          {"variety/pdrf4-1.3.laz", "point format 4 has waveforms"},
-          {"variety/simple1_3.las", "point format 4 has waveforms"},
+  return {{"variety/pdrf4-1.3.laz", "point format 4 has waveforms"},
           {"variety/pdrf5-1.3.laz", "point format 5 has waveforms"},
           {"variety/pdrf9-1.4.laz", "point format 9 has waveforms"},
-          {"variety/pdrf10-1.4.las", "point format 10 has waveforms"},
           {"variety/pdrf10-1.4.laz", "point format 10 has waveforms"},
           {"variety/pdrf10-1.5.laz", "LAS 1.5 is not read"},
           {"variety/pdrf7-v4-1.4.laz", "version 4 of LASzip's items"},

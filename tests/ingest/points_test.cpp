@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <map>
 
 #include "ingest/workshop.hpp"
 
@@ -86,6 +87,65 @@ TEST_F(CloudDensity, of_a_cloud_that_is_cut_out_along_a_street_is_that_of_the_st
   // Three quarters of the box have none: over all of it there are 4.4 points/m², too few for cells of 0.5 m.
   const auto said = said_of([](double x, double y) { return std::abs(x - y) < 7; });
   EXPECT_THAT(said, testing::HasSubstr("cells of 0.5 m"));
+}
+
+/// Two roofs at 6 m over ground, one of class 6 and one of class 67.
+class CloudClasses : public test::Workshop {
+ protected:
+  struct Read {
+    double roof_of_67 = 0;  ///< z, the highest over it
+    std::map<std::string, std::string> warnings;
+  };
+  [[nodiscard]] auto read(const std::string& buildings) const -> base::Result<Read> {
+    std::string body;
+    std::size_t count = 0;
+    for (double y = 0.25; y < 40; y += 0.5)
+      for (double x = 0.25; x < 40; x += 0.5) {
+        const bool one = x > 4 && x < 14 && y > 4 && y<14, other = x> 24 && x < 34 && y > 24 && y < 34;
+        body += base::to_text(x) + " " + base::to_text(y) + (one || other ? " 6 " : " 0 ") +
+                (one     ? "6"
+                 : other ? "67"
+                         : "2") +
+                "\n";
+        ++count;
+      }
+    Options options;
+    options.cloud.building_classes = buildings;
+    const auto scene =
+        read_scene({file("cloud.ply", "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+                                          "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar "
+                                          "classification\nend_header\n" +
+                                          body)},
+                   {}, options);
+    if (!scene) return scene.failure();
+    Read out;
+    const auto at = [&](std::size_t axis) { return static_cast<double>(scene->frame.origin[axis]); };
+    for (const auto& v : scene->mesh.vertices) {
+      const double x = v.x + at(0), y = v.y + at(1);
+      if (x > 26 && x < 32 && y > 26 && y < 32) out.roof_of_67 = std::max(out.roof_of_67, v.z + at(2));
+    }
+    for (const auto& warning : scene->warnings) out.warnings[warning.code] = warning.message;
+    return out;
+  }
+};
+
+TEST_F(CloudClasses, without_a_meaning_are_told_and_left_out) {
+  const auto found = read("6");
+  ASSERT_TRUE(found) << base::to_string(found.error());
+  EXPECT_LT(found->roof_of_67, 1);
+  EXPECT_THAT(found->warnings.at("ingest-points-classes"), testing::HasSubstr("67 (400 points)"));
+  EXPECT_THAT(found->warnings.at("ingest-points-surface"), testing::HasSubstr("2 ground 87.5 % (the ground)"));
+}
+
+TEST_F(CloudClasses, are_buildings_where_they_are_said_to_be) {
+  const auto found = read("6,67");
+  ASSERT_TRUE(found) << base::to_string(found.error());
+  EXPECT_NEAR(found->roof_of_67, 6, 0.01);
+  EXPECT_FALSE(found->warnings.contains("ingest-points-classes"));
+  EXPECT_THAT(found->warnings.at("ingest-points-surface"), testing::HasSubstr("67 6.2 % (buildings)"));
+  const auto wrong = read("6;67");
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().code, "option-value");
 }
 
 /// Why a cloud is none that can be used.

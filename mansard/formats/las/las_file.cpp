@@ -41,8 +41,10 @@ auto items_of(int format, std::size_t extra) -> std::vector<ItemSize> {
   return items;
 }
 
-auto has_colour(int format) -> bool { return format == 2 || format == 3 || format == 7 || format == 8; }
-auto colour_at(int format) -> std::size_t { return format == 2 ? 20 : format == 3 ? 28 : 30; }
+auto has_colour(int format) -> bool {
+  return format == 2 || format == 3 || format == 5 || format == 7 || format == 8 || format == 10;
+}
+auto colour_at(int format) -> std::size_t { return format == 2 ? 20 : format == 3 || format == 5 ? 28 : 30; }
 
 }  // namespace
 

@@ -124,9 +124,10 @@ auto read_las_header(const RangeFile& file, const std::string& name) -> base::Re
 
   if (length_of_format(header.format) == 0)
     return bad("point format " + std::to_string(header.format) + " does not exist; the formats are 0 to 10");
-  if (header.format == 4 || header.format == 5 || header.format == 9 || header.format == 10)
+  // Of the formats with waveforms a record is that of another one with 29 bytes more, which are not read.
+  if (header.compressed && (header.format == 4 || header.format == 5 || header.format == 9 || header.format == 10))
     return unsupported("point format " + std::to_string(header.format) +
-                       " has waveforms, which are not read; convert to format " +
+                       " has waveforms, which are not read from LAZ; convert to LAS, or to format " +
                        std::to_string(header.format == 4   ? 1
                                       : header.format == 5 ? 3
                                       : header.format == 9 ? 6

@@ -7,6 +7,7 @@
 #include "mansard/base/statistics.hpp"
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/cloud/classes.hpp"
 #include "mansard/cloud/cloud.hpp"
 #include "mansard/ingest/detail/cloud_pieces.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
@@ -105,18 +106,22 @@ auto percent(std::uint64_t part, std::uint64_t whole) -> std::string {
 /// What was read, and what of it cannot be used wherever it is.
 struct Read {
   std::uint64_t points = 0, not_finite = 0, noise = 0, withheld = 0;
+  std::array<std::uint64_t, 256> classes{};  ///< as they are in the files
 
-  void add(const formats::CloudPoint& p) {
+  /// `as`: the class that the point's is taken for.
+  void add(const formats::CloudPoint& p, std::uint8_t as) {
     ++points;
+    ++classes[p.classification];
     if (!finite(p.position)) ++not_finite;
     else if (p.withheld) ++withheld;
-    else if (p.classification == 7 || p.classification == 18) ++noise;
+    else if (as == 7 || as == 18) ++noise;
   }
   void include(const Read& o) {
     points += o.points;
     not_finite += o.not_finite;
     noise += o.noise;
     withheld += o.withheld;
+    for (std::size_t c = 0; c < classes.size(); ++c) classes[c] += o.classes[c];
   }
   [[nodiscard]] auto usable() const -> std::uint64_t { return points - not_finite - noise - withheld; }
 };
@@ -156,7 +161,8 @@ auto why_no_surface(const cloud::Counts& counts, double density, double cell) ->
          base::to_text(cell) + " m; check its CRS and unit, and cloud.isolated";
 }
 
-auto in_words(const cloud::Counts& counts, double density, double cell, bool ground) -> std::string {
+auto in_words(const cloud::Counts& counts, double density, double cell, bool ground, const std::string& classes)
+    -> std::string {
   const auto tiles = counts.tiles_by_class + counts.tiles_by_shape;
   std::string buildings;
   if (counts.tiles_by_shape == 0) buildings = "class 6";
@@ -168,7 +174,7 @@ auto in_words(const cloud::Counts& counts, double density, double cell, bool gro
          " points (" + base::to_text(density, 1) + " points/m²): buildings by " + buildings + ", the ground " +
          (ground ? "by class 2" : "as the lowest of the surface") + "; of " + std::to_string(counts.cells) + " cells " +
          percent(counts.filled, counts.cells) + " were filled, and " + std::to_string(counts.isolated + counts.rough) +
-         " heights were left out as isolated or as vegetation";
+         " heights were left out as isolated or as vegetation; classes read: " + classes;
 }
 
 }  // namespace
@@ -180,6 +186,8 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     if (source.cloud) clouds.push_back(&source);
   if (clouds.empty()) return std::vector<formats::MeshPiece>();
   const std::string subject = clouds.front()->path.string() + (clouds.size() > 1 ? " and others" : "");
+  const auto map = cloud::class_map(options_.cloud);
+  if (!map) return map.failure();
 
   // The same for every part of the clouds that is read: of all files, the middle one. Of a folder with more files than
   // these, those in the middle are not cut out of anything, and their headers are right.
@@ -267,8 +275,9 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
       Read own;
       for (std::size_t k = 0; k < points->size(); ++k) {
         const auto& p = (*points)[k];
-        own.add(p);
-        if (!p.withheld) samples.push_back({positions[k], p.classification, p.return_number, p.returns});
+        const std::uint8_t as = (*map)[p.classification];
+        own.add(p, as);
+        if (!p.withheld) samples.push_back({positions[k], as, p.return_number, p.returns});
       }
       surface.add(samples, within);
       const std::scoped_lock lock(mutex);
@@ -319,8 +328,18 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   out.ground = cloud::join(grounds, options_.cloud.ground_reach);
   for (auto& tile : grounds) tile.heights = {};
   out.counted = std::move(grounds);
-  warnings_.push_back(
-      base::warning("ingest-points-surface", in_words(counts, density, cell, out.ground.has_value()), subject));
+  warnings_.push_back(base::warning(
+      "ingest-points-surface",
+      in_words(counts, density, cell, out.ground.has_value(), cloud::classes_in_words(read.classes, *map)), subject));
+  if (const auto unknown = cloud::unknown_classes(read.classes, *map); !unknown.empty())
+    warnings_.push_back(base::warning(
+        "ingest-points-classes",
+        "classes without a meaning in LAS 1.4: " + unknown +
+            "; where buildings are found by class they are left out. If they are buildings or ground, give "
+            "--cloud-building-classes or --cloud-ground-classes with all classes of these, and "
+            "--cloud-left-out-classes "
+            "for what is neither",
+        subject));
   return pieces;
 }
 
