@@ -138,7 +138,6 @@ constexpr std::array removed{
     Removed{"profile.step", ""},
     Removed{"refine.bare_noise", "accuracy.noise"},
     Removed{"refine.cuts_askew_price", ""},
-    Removed{"refine.cuts_hipped_min_area", ""},
     Removed{"refine.cuts_large_area", ""},
     Removed{"refine.cuts_large_gain", ""},
     Removed{"refine.cuts_line_min_width", "accuracy.blur"},

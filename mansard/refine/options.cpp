@@ -160,6 +160,9 @@ void add_roughness(OptionList& list, Options::Cuts& o) {
       .number("cuts_smooth_rms", o.smooth_rms, "m", height,
               "A structure that fills its box is a roof where a simple surface leaves no greater root mean square.")
       .advanced("a roof with its clutter; not measured")
+      .number("cuts_hipped_min_area", o.hipped_min_area, "m²", area,
+              "A structure of at least this area is also compared with a roof of four hips.")
+      .advanced("a smaller crown passes for one; not measured")
       .number("cuts_fair_area", o.fair_area, "m²", area,
               "A structure of at least this area may have hips and smaller structures on it.")
       .advanced(by_hand)

@@ -218,8 +218,9 @@ struct Options {
     double fullness = 0.73;
     /// The maximum height of a structure is exceeded by one sample in this many. Chosen by hand; not measured.
     std::int64_t fullness_part = 20;
-    double fair_area = 30;   ///< m²
-    double fair_rms = 0.45;  ///< m
+    double hipped_min_area = 16;  ///< m²
+    double fair_area = 30;        ///< m²
+    double fair_rms = 0.45;       ///< m
     /// A line across a part is proposed where it explains at least this share of the part's error. Chosen by hand; not
     /// measured.
     double line_gain = 0.15;

@@ -408,8 +408,8 @@ auto bay_is_building(double share, double rim) -> bool {
 }
 
 TEST(Choose, a_bay_as_narrow_as_the_scans_edges_is_building_where_a_roof_is_seen) {
-  EXPECT_TRUE(bay_is_building(0.4, 0.3));
-  EXPECT_FALSE(bay_is_building(0.1, 0.3));
+  EXPECT_TRUE(bay_is_building(0.4, 0.4));
+  EXPECT_FALSE(bay_is_building(0.1, 0.4));
   EXPECT_FALSE(bay_is_building(0.4, 0));  // a scan with sharp edges shows what is there
 }
 

@@ -51,8 +51,10 @@ auto coherent(const carve::Raster& raster, const Cut& cut, const Options& option
   const double rms = carve::unevenness_of(raster, core, cut.frame, options.surfaces);
   const double area = (inside ? e.inside : e.outside).count * raster.cell_area();
   const bool fair = area >= o.fair_area;
-  return rms <= (fair ? o.fair_rms : o.smooth_rms) &&
-         (rms <= o.crisp_rms || fair || carve::fullness_of(raster, of_it, o.fullness_part) >= o.fullness);
+  if (rms <= (fair ? o.fair_rms : o.smooth_rms) &&
+      (rms <= o.crisp_rms || fair || carve::fullness_of(raster, of_it, o.fullness_part) >= o.fullness))
+    return true;
+  return inside && area >= o.hipped_min_area && carve::hipped_error(raster, core, cut.polygon) <= o.crisp_rms;
 }
 
 /// The cuts of one part as they are found, held against the cells as measured.

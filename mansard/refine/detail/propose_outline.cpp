@@ -87,6 +87,18 @@ auto rectangle_of(const Raster& raster, const Worths& w, const CellBox& box) -> 
   return {{x(box.left), y(box.bottom)}, {x(box.right), y(box.top)}};
 }
 
+/// Reaching into the other where only a wall's melt parts them.
+void joined(Rectangle& a, const Rectangle& b, double near) {
+  const auto reaching = [near](double& least, double& most, double other_least, double other_most) {
+    const double middle = (other_least + other_most) / 2;
+    if (least >= other_most - rounding && least - other_most < near) least = middle;
+    if (most <= other_least + rounding && other_least - most < near) most = middle;
+  };
+  const bool beside = a.least.y < b.most.y && b.least.y < a.most.y, over = a.least.x < b.most.x && b.least.x < a.most.x;
+  if (beside && !over) reaching(a.least.x, a.most.x, b.least.x, b.most.x);
+  if (over && !beside) reaching(a.least.y, a.most.y, b.least.y, b.most.y);
+}
+
 auto rectangles_of(const Raster& raster, const Region& region, const Options& options) -> std::vector<Rectangle> {
   const auto& o = options.outlines;
   Worths worths = worths_of(raster, region, options);
@@ -98,9 +110,10 @@ auto rectangles_of(const Raster& raster, const Region& region, const Options& op
     if (box.sum < least_sum) break;
     for (int j = box.bottom; j < box.top; ++j)
       for (int i = box.left; i < box.right; ++i) worths.at(i, j) = 0;
-    const Rectangle rectangle = rectangle_of(raster, worths, box);
+    Rectangle rectangle = rectangle_of(raster, worths, box);
     const Point2 size = rectangle.most - rectangle.least;
     if (std::min(size.x, size.y) < o.min_width_share * options.cuts.min_width) continue;
+    for (const Rectangle& before : out) joined(rectangle, before, o.near_edge);
     out.push_back(rectangle);
   }
   return out;
@@ -175,6 +188,15 @@ void settle(const Raster& raster, std::vector<Rectangle>& all, bool finally, con
 auto exchanged(std::vector<Rectangle> all) -> std::vector<Rectangle> {
   for (Rectangle& r : all) r = {{r.least.y, r.least.x}, {r.most.y, r.most.x}};
   return all;
+}
+
+/// Sides that nearly go on in one line do.
+void lined_up(std::vector<Rectangle>& all, double near) {
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size(); ++j)
+      for (const auto& side : {&Rectangle::least, &Rectangle::most})
+        for (const auto& axis : {&Point2::x, &Point2::y})
+          if (std::abs(all[i].*side.*axis - all[j].*side.*axis) < near) all[j].*side.*axis = all[i].*side.*axis;
 }
 
 auto polygon_of(const std::vector<Rectangle>& all, double melted) -> std::optional<Polygon> {
@@ -285,6 +307,7 @@ auto outlines_of(const Raster& raster, const Raster& across, const Region& regio
       some = exchanged(std::move(some));
       settle(across, some, finally, options);
       some = exchanged(std::move(some));
+      if (!finally) lined_up(some, options.outlines.near_edge);
     }
     if (auto polygon = polygon_of(some, options.samples.melt)) out.push_back(std::move(*polygon));
   }

@@ -187,4 +187,17 @@ auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, st
   return high > 0 ? std::abs(mean) / high : 1;
 }
 
+auto hipped_error(const Raster& raster, const std::vector<std::uint8_t>& mask, const geometry::Polygon& polygon)
+    -> double {
+  geometry::LineSums m;
+  for (int j = 0; j < raster.rows; ++j)
+    for (int i = 0; i < raster.columns; ++i) {
+      const std::size_t k = raster.at(i, j);
+      if (!mask[k] || raster.state[k] != Cell::seen) continue;
+      m.add(geometry::boundary_distance(polygon, raster.frame.back({raster.x(i), raster.y(j)})), raster.z[k]);
+    }
+  if (m.weight < 1 || m.spread() <= 0 || m.joint() < 0) return infinite;
+  return std::sqrt(m.residual() / m.weight);
+}
+
 }  // namespace mansard::refine::detail::carve

@@ -62,4 +62,9 @@ struct Errors {
 [[nodiscard]] auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, std::int64_t part)
     -> double;
 
+/// Root mean square, m, that a roof hipped on all sides of the polygon, of any pitch, leaves of the cells; infinite
+/// where it would be a funnel. The raster is one along the axes.
+[[nodiscard]] auto hipped_error(const Raster& raster, const std::vector<std::uint8_t>& mask,
+                                const geometry::Polygon& polygon) -> double;
+
 }  // namespace mansard::refine::detail::carve
