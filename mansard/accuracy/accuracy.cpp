@@ -184,7 +184,6 @@ auto combined(std::span<const model::Accuracy> all) -> model::Accuracy {
   };
   const auto windows = [](const auto& one) { return one.windows; };
   const auto transects = [](const auto& one) { return one.transects; };
-  const auto put = [](std::optional<double> value, double& to) { to = value.value_or(to); };
   put(middle([](const auto& one) { return one.noise; }, windows), out.noise);
   put(middle([](const auto& one) { return one.correlated_area; }, windows), out.correlated_area);
   put(middle([](const auto& one) { return one.spacing; }, windows), out.spacing);

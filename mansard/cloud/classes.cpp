@@ -29,7 +29,7 @@ auto numbers_in(std::string_view list) -> std::optional<std::vector<std::uint8_t
   return out;
 }
 
-/// Classes of the specification that are no surface of a building, nor ground: why they are left out.
+/// What a class is used for, in words.
 auto use_of(std::uint8_t classification) -> std::string_view {
   switch (classification) {
     case ground: return "the ground";
