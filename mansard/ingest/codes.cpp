@@ -42,7 +42,7 @@ auto own_codes() -> std::vector<base::Code> {
       {"ingest-points-crs", "The record of a point cloud's CRS is not valid, and is not used.",
        "Say --crs EPSG:n for the working CRS, and give points that are in it.", 0},
       {"ingest-points-classes", "A point cloud has classes that the LAS specification reserves or leaves to users.",
-       "Look up what its producer uses them for, and name them with --cloud-building-classes, --cloud-ground-classes "
+       "Ask the cloud's producer what they mean, and name them with --cloud-building-classes, --cloud-ground-classes "
        "or --cloud-left-out-classes.",
        0},
       {"ingest-points-surface", "How a surface was made of point clouds.",
