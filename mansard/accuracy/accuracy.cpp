@@ -102,8 +102,8 @@ auto measure_noise(const geometry::Mesh& mesh, const rays::Scene& scene, std::sp
   model::Accuracy out;
   if (!o.noise || !o.correlated_area || !o.spacing) {
     const auto places = places_over(outline, most_places);
-    put_noise(detail::Cells(roof_vertices(mesh)), places, out);
-    if (!places.empty() && (out.windows == 0 || out.spacing > coarse)) {
+    put_noise(detail::Cells(mesh.points.empty() ? roof_vertices(mesh) : mesh.points), places, out);
+    if (mesh.points.empty() && !places.empty() && (out.windows == 0 || out.spacing > coarse)) {
       const double spacing = out.spacing;
       out = {};
       // A triangle is even, whatever the noise: a disc says something where it has several.
@@ -116,6 +116,7 @@ auto measure_noise(const geometry::Mesh& mesh, const rays::Scene& scene, std::sp
   put(o.noise, out.noise);
   put(o.correlated_area, out.correlated_area);
   put(o.spacing, out.spacing);
+  if (!mesh.points.empty()) out.point_area = rounded(out.spacing * out.spacing);
   return out;
 }
 

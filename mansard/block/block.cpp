@@ -179,7 +179,8 @@ void move(Block& block, Point3 by) {
     member.ground += by.z;
   }
   shift(block.outline, xy(by));
-  for (Point3& v : block.mesh.vertices) v = v + by;
+  for (auto* places : {&block.mesh.vertices, &block.mesh.points})
+    for (Point3& v : *places) v = v + by;
   block.ground += by.z;
 }
 
@@ -293,6 +294,23 @@ auto as_mesh(const std::vector<geometry::Box2>& boxes) -> geometry::Mesh {
   return mesh;
 }
 
+auto as_mesh(const std::vector<Point3>& points) -> geometry::Mesh {
+  geometry::Mesh mesh{points, {}, {}};
+  for (std::uint32_t i = 0; i < points.size(); ++i) mesh.triangles.push_back({i, i, i});
+  return mesh;
+}
+
+/// Those of the points that are within reach of a block, moved by −origin and rounded, in order.
+auto points_of(const std::vector<Point3>& points, const std::vector<std::uint32_t>& candidates, Point3 origin,
+               const detail::Nearness& near) -> std::vector<Point3> {
+  std::vector<Point3> out;
+  for (const auto i : candidates)
+    if (const Point3 p = rounded(points[i] - origin); near(xy(p))) out.push_back(p);
+  std::ranges::sort(out);
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 }  // namespace
 
 auto in_own_frame(Block block) -> OwnFrame {
@@ -386,7 +404,7 @@ struct Partition::Prepared {
   Shapes shapes;
   std::vector<std::vector<std::size_t>> groups;
   std::vector<Block> blocks;  ///< outlined
-  std::vector<std::vector<std::uint32_t>> near_by, shapes_near, within_reach;
+  std::vector<std::vector<std::uint32_t>> near_by, shapes_near, within_reach, points_near;
 };
 
 Partition::Partition(Partition&&) noexcept = default;
@@ -394,11 +412,12 @@ auto Partition::operator=(Partition&&) noexcept -> Partition& = default;
 Partition::~Partition() = default;
 
 Partition::Partition(const model::Scene& scene, const Options& options, const base::Run& run)
-    : prepared_(new Prepared{scene, options, Shapes(scene), {}, {}, {}, {}, {}}) {
+    : prepared_(new Prepared{scene, options, Shapes(scene), {}, {}, {}, {}, {}, {}}) {
   run.report("block", "", 0);
   auto& shapes = prepared_->shapes;
   auto& groups = prepared_->groups;
   auto& near_by = prepared_->near_by;
+  auto& points_near = prepared_->points_near;
   groups = shapes.groups(options.touch);
   std::erase_if(groups, [&](const auto& group) { return shapes.features[group.front()] >= scene.footprints.size(); });
   if (run.cancelled()) return;
@@ -416,6 +435,7 @@ Partition::Partition(const model::Scene& scene, const Options& options, const ba
     reaches.push_back(box.grown(options.ground_reach));
   }
   near_by = geometry::triangles_near(scene.mesh, regions);
+  if (!scene.mesh.points.empty()) points_near = geometry::triangles_near(as_mesh(scene.mesh.points), regions);
   if (run.cancelled()) return;
   prepared_->shapes_near = geometry::triangles_near(as_mesh(shapes.boxes), regions);
   // Only where nothing is nearer does the mesh farther away matter.
@@ -431,7 +451,7 @@ auto Partition::outlined(std::size_t i) const -> const Block& { return prepared_
 auto Partition::triangles_near(std::size_t i) const -> std::size_t { return prepared_->near_by[i].size(); }
 
 auto Partition::make(std::size_t i) const -> Block {
-  const auto& [scene, options, shapes, groups, blocks, near_by, shapes_near, within_reach] = *prepared_;
+  const auto& [scene, options, shapes, groups, blocks, near_by, shapes_near, within_reach, points_near] = *prepared_;
   Block block = blocks[i];
   block.origin[2] = foot_of(scene.mesh, near_by[i].empty() ? within_reach[i] : near_by[i]);
   const Point3 origin = as_point(block.origin);
@@ -441,6 +461,7 @@ auto Partition::make(std::size_t i) const -> Block {
   for (std::uint32_t t = 0; t < around.mesh.triangles.size(); ++t)
     if (near(detail::plan_of(around.mesh, around.mesh.triangles[t]))) kept.push_back(t);
   block.mesh = part_of(around.mesh, kept, {});
+  if (!points_near.empty()) block.mesh.points = points_of(scene.mesh.points, points_near[i], origin, near);
   for (const auto& member : block.members) around.shapes.push_back(member.polygons);
   const auto beside = others_of(shapes_near[i], groups[i], shapes, -1.0 * xy(origin));
   around.shapes.insert(around.shapes.end(), beside.begin(), beside.end());

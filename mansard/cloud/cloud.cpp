@@ -279,9 +279,10 @@ auto Surface::make(const Tile& tile) const -> base::Result<TileSurface> {
   out.mesh = detail::mesh_of(grid, options_);
   const double west = static_cast<double>(x - border) / per_metre, south = static_cast<double>(y - border) / per_metre;
   // Windows of adjacent tiles begin at different places: rounded, what both have is at one place again.
-  for (auto& v : out.mesh.vertices)
-    v = {static_cast<double>(rounded(v.x)) / per_metre + west, static_cast<double>(rounded(v.y)) / per_metre + south,
-         static_cast<double>(rounded(v.z)) / per_metre};
+  for (auto* places : {&out.mesh.vertices, &out.mesh.points})
+    for (auto& v : *places)
+      v = {static_cast<double>(rounded(v.x)) / per_metre + west, static_cast<double>(rounded(v.y)) / per_metre + south,
+           static_cast<double>(rounded(v.z)) / per_metre};
   return out;
 }
 

@@ -52,7 +52,7 @@ auto osgb(const MeshBytes& source, MeshPiece& piece) -> base::Result<RawMesh> {
   auto& mesh = read->mesh.mesh;
   if (source.up == UpAxis::y)
     for (auto& v : mesh.vertices) v = {v.x, -v.z, v.y};
-  return RawMesh{std::move(mesh.vertices), std::move(mesh.triangles), read->short_faces, {}};
+  return RawMesh{std::move(mesh.vertices), std::move(mesh.triangles), read->short_faces, {}, {}};
 }
 
 constexpr Reads mesh{.mesh = true}, points{.mesh = true, .points = true}, raster{.raster = true},

@@ -14,6 +14,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct Mesh {
   std::vector<Point3> vertices;     ///< metres
   std::vector<Triangle> triangles;  ///< indices into vertices, counter-clockwise seen from outside where known
+  /// What was measured of the surface, where a scan consists of points: the triangles are drawn between these. Metres.
+  std::vector<Point3> points{};
 };
 
 }  // namespace mansard::geometry

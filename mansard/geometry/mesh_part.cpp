@@ -29,7 +29,7 @@ auto part_of(const Mesh& mesh, std::span<const std::uint32_t> triangles) -> Mesh
 }
 
 auto without(const Mesh& mesh, std::span<const std::uint32_t> triangles) -> Mesh {
-  Mesh out{mesh.vertices, {}};
+  Mesh out{mesh.vertices, {}, mesh.points};
   out.triangles.reserve(mesh.triangles.size() - triangles.size());
   std::size_t next = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -10,11 +10,11 @@
 
 namespace mansard::geometry {
 
-/// These triangles, in their order, with the vertices that they use, in the mesh's order. Cost: O(n log n) of the
+/// These triangles, in their order, with the vertices that they use, in the mesh's order; without points. Cost: O(n log n) of the
 /// triangles asked for.
 [[nodiscard]] auto part_of(const Mesh& mesh, std::span<const std::uint32_t> triangles) -> Mesh;
 
-/// The mesh without these triangles, which are ascending and each there once; the vertices stay.
+/// The mesh without these triangles, which are ascending and each there once; vertices and points stay.
 [[nodiscard]] auto without(const Mesh& mesh, std::span<const std::uint32_t> triangles) -> Mesh;
 
 /// For each box, the triangles whose boxes in plan overlap or touch it, ascending: candidates for a closer look.

@@ -49,6 +49,7 @@ auto part_of(const formats::RawMesh& raw, std::span<const std::pair<MeshCells::C
 
 /// Adds `more` behind what is there.
 void append(geometry::Mesh& mesh, const geometry::Mesh& more) {
+  mesh.points.insert(mesh.points.end(), more.points.begin(), more.points.end());
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
   for (Triangle t : more.triangles) {
@@ -105,13 +106,17 @@ void MeshCells::add(const formats::RawMesh& raw) {
       for (std::int32_t y = first.second; y <= last.second; ++y) placed.emplace_back(Cell{x, y}, t);
   }
   std::ranges::sort(placed);
-  std::vector<std::pair<Cell, std::pair<std::string, std::size_t>>> pieces;
+  std::map<Cell, geometry::Mesh> parts;
   std::vector<std::uint32_t> places(raw.vertices.size());
   for (std::size_t i = 0, end = 0; i < placed.size(); i = end) {
     while (end < placed.size() && placed[end].first == placed[i].first) ++end;
-    const auto part = part_of(raw, std::span(placed).subspan(i, end - i), places);
-    pieces.emplace_back(placed[i].first, std::pair(base::packed(part), part.triangles.size()));
+    parts[placed[i].first] = part_of(raw, std::span(placed).subspan(i, end - i), places);
   }
+  for (const Point3 p : raw.points)
+    if (detail::usable(p)) parts[{index(p.x, side_), index(p.y, side_)}].points.push_back(p);
+  std::vector<std::pair<Cell, std::pair<std::string, std::size_t>>> pieces;
+  for (const auto& [cell, part] : parts)
+    pieces.emplace_back(cell, std::pair(base::packed(part), part.triangles.size()));
   const std::scoped_lock lock(mutex_);
   box_.include(box);
   counts_.vertices_read += counts.vertices_read;
@@ -148,6 +153,7 @@ auto MeshCells::clean_cell(const Cell& cell, const std::vector<Chunk>& chunks, c
   formats::RawMesh raw;
   raw.vertices = std::move(all.vertices);
   raw.triangles = std::move(all.triangles);
+  raw.points = std::move(all.points);
   auto clean = detail::clean(std::move(raw), shift, within, home);
   counts = clean.counts;
   return std::move(clean.mesh);
@@ -169,7 +175,7 @@ auto MeshCells::settle(const std::array<double, 3>& shift, const std::optional<B
       results[i].failure = mesh.failure();
       return;
     }
-    if (mesh->triangles.empty()) return;
+    if (mesh->triangles.empty() && mesh->points.empty()) return;
     const auto bytes = base::packed(*mesh);
     const std::scoped_lock lock(mutex_);
     cells_[all[i].first] = {clean_->size(), bytes.size(), mesh->triangles.size()};

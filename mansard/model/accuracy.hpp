@@ -16,6 +16,7 @@ struct Accuracy {
   double spacing = 0.5;         ///< m; nominal spacing of what was sampled
   double blur = 0.25;           ///< m; standard deviation of the smoothing of edges and steps; 0: sharp
   double edge_noise = 0.1;      ///< m; standard deviation of where a straight edge is seen along it
+  double point_area = 0;        ///< m²; the ground that a measured point stands for; 0: the scan is a surface
   double walls = 1;             ///< share of the walls' height that the scan shows
   geometry::Point2 offset;      ///< m; what to add to the footprints to bring them to the scan
   double offset_error = 0;      ///< m; standard error of each coordinate of it

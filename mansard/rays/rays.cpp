@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -171,9 +172,10 @@ Tree::Tree(const geometry::Mesh& mesh) {
 struct Scene::Parts {
   geometry::Mesh mesh;
   std::vector<std::uint32_t> hiding;  ///< of the mesh, ascending
-  std::once_flag tree_once, above_once;
+  std::once_flag tree_once, above_once, points_once;
   std::unique_ptr<const Tree> tree_;
   std::unique_ptr<const detail::FromAbove> above_;
+  std::vector<Point3> points_;
 
   Parts(geometry::Mesh of, std::vector<std::uint32_t> without) : mesh(std::move(of)), hiding(std::move(without)) {}
   [[nodiscard]] auto empty() const -> bool { return mesh.triangles.size() == hiding.size(); }
@@ -190,6 +192,18 @@ struct Scene::Parts {
   auto above() -> const detail::FromAbove& {
     std::call_once(above_once, [&] { above_ = std::make_unique<const detail::FromAbove>(mesh); });
     return *above_;
+  }
+  auto points() -> const std::vector<Point3>& {
+    std::call_once(points_once, [&] {
+      points_ = mesh.points;
+      if (!hiding.empty())
+        std::erase_if(points_, [&](Point3 p) {
+          const auto seen = above()(xy(p));
+          return seen && hides(seen->triangle);
+        });
+      std::ranges::sort(points_);
+    });
+    return points_;
   }
 };
 
@@ -336,6 +350,18 @@ auto Scene::top_inside_walls(Point2 at, double ground) const -> std::optional<do
     if (const auto beside = this->top(at + bulge_reach * way); beside && *beside < foot + least_storey) return foot;
   return top;
 }
+
+auto Scene::points_in(const geometry::Box2& box) const -> std::vector<Point3> {
+  std::vector<Point3> out;
+  if (!has_points()) return out;
+  const auto& all = parts_->points();
+  const auto first = std::ranges::lower_bound(all, box.least.x, {}, &Point3::x);
+  const auto last = std::ranges::upper_bound(first, all.end(), box.most.x, {}, &Point3::x);
+  std::copy_if(first, last, std::back_inserter(out), [&](Point3 p) { return box.contains(xy(p)); });
+  return out;
+}
+
+auto Scene::has_points() const -> bool { return !parts_->mesh.points.empty(); }
 
 auto Scene::nearest(Point3 to, double within) const -> std::optional<Nearest> { return nearest(to, within, {}); }
 

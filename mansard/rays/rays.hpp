@@ -71,6 +71,11 @@ class Scene {
   /// backs of the mesh do not alternate, and where triangles are left out, it is `top`.
   [[nodiscard]] auto top_inside_walls(geometry::Point2 at, double ground) const -> std::optional<double>;
 
+  /// The measured points in the box, its border included, in order; of a scan that consists of points, else none. Not
+  /// those above or below triangles that hide. Cost: O(log n + points between the box's x).
+  [[nodiscard]] auto points_in(const geometry::Box2& box) const -> std::vector<geometry::Point3>;
+  [[nodiscard]] auto has_points() const -> bool;
+
   /// The nearest place of the mesh within so many metres, of any triangle. Of two as near (to the last bit) that of the
   /// lower triangle.
   [[nodiscard]] auto nearest(geometry::Point3 to, double within = std::numeric_limits<double>::infinity()) const

@@ -60,7 +60,11 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   // a micrometre, mean differences of 0.5 m and 100 m², and less where a scan is so accurate that a face costs less.
   o.same_cost = std::min(1e-3, o.face_price / 300);
 
-  const double blur = scan.blur * scan.blur, rough = scan.edge_noise * scan.edge_noise, edge = scan.edge();
+  // A point is where it was measured: only the surface that is drawn between points rounds anything.
+  o.samples.point_area = scan.point_area;
+  const bool points = scan.point_area > 0;
+  const double blur = points ? 0 : scan.blur * scan.blur, rough = points ? 0 : scan.edge_noise * scan.edge_noise,
+               edge = std::sqrt(blur + rough);
   o.margin = std::min(most_margin, reach * edge);
   o.samples.margin_weight =
       blur + rough > 0 ? (weight_of_rounded * blur + weight_of_rough * rough) / (blur + rough) : weight_of_rough;

@@ -39,6 +39,7 @@ struct Options {
     double level_band = 0.5;                      ///< m; no option: profile.cap_level
     double melt = 0.5;                            ///< m; no option: decided_by
     double blur = 0.25;                           ///< m; no option: decided_by
+    double point_area = 0;                        ///< m² a point; 0: a surface is sampled. No option: decided_by
   } samples;
 
   /// Robust lines through heights (lines).

@@ -70,7 +70,7 @@ TEST_F(Judging, sums_the_losses_of_the_smoothed_heights_to_the_last_bit) {
     ASSERT_TRUE(judged);
     EXPECT_GT(judged->misfit, 0);
     for (const double cap : {3.0, 6.1, 100.0})
-      EXPECT_EQ(judge().misfit_of(judged->view.z, cap), misfit_by_cell(site_, judged->view.z, cap, options_.robust));
+      EXPECT_EQ(judge().misfit_of(judged->view, cap), misfit_by_cell(site_, judged->view.z, cap, options_.robust));
   }
 }
 
@@ -78,11 +78,11 @@ TEST_F(Judging, may_end_a_sum_that_reaches_what_is_too_much) {
   const auto judged = judge()(gabled(2, 0.7));
   const auto infinite = std::numeric_limits<double>::infinity();
   for (const double share : {0.1, 0.5, 1.0}) {
-    const double most = share * judged->misfit, ended = judge().misfit_of(judged->view.z, infinite, most);
+    const double most = share * judged->misfit, ended = judge().misfit_of(judged->view, infinite, most);
     EXPECT_GE(ended, most);
     EXPECT_LE(ended, judged->misfit);
   }
-  EXPECT_EQ(judge().misfit_of(judged->view.z, infinite, 1.001 * judged->misfit), judged->misfit);
+  EXPECT_EQ(judge().misfit_of(judged->view, infinite, 1.001 * judged->misfit), judged->misfit);
 }
 
 void expect_same(const Judged& a, const Judged& b) {

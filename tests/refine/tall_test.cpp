@@ -59,7 +59,7 @@ TEST(Tall, walls_are_asked_for_where_the_part_ends_above_or_below_what_is_beside
     const rays::Scene scene(mesh);
     const auto site = refine::detail::look(model::polygon_of(of), ground, scene, options);
     const auto sketch = extrude::sketch(of, {}, {});
-    return refine::detail::walls_of(site, refine::detail::view_of(*sketch, site.measured, ground), scene, options);
+    return refine::detail::walls_of(site, refine::detail::view_of(*sketch, site), scene, options);
   };
   const auto whole = scanned({box(house, 6), box(tower, 18)});
   const auto all = walls(whole, box(tower, 18)), none = walls(without_walls(whole), box(tower, 18));

@@ -81,7 +81,9 @@ class Grid {
 /// Removes points that belong to no surface and fills small gaps; counts the cells of the tile itself.
 void clean(Grid& grid, const Options& options, Counts& counts);
 
-/// The surface of the tile's own cells, from the window's south-west corner.
+/// The surface of the tile's own cells, from the window's south-west corner, and the points that are on it.
 [[nodiscard]] auto mesh_of(const Grid& grid, const Options& options) -> geometry::Mesh;
+/// The points in the tile's own cells that are on the surface.
+[[nodiscard]] auto points_on_surface(const Grid& grid, const Options& options) -> std::vector<geometry::Point3>;
 
 }  // namespace mansard::cloud::detail

@@ -9,7 +9,7 @@ namespace mansard::formats {
 
 /// Classes are kept where there is one mesh only. The number of vertices must stay below `no_vertex`.
 inline void append(RawMesh& all, RawMesh more) {
-  if (all.vertices.empty() && all.triangles.empty() && all.vertices.capacity() < more.vertices.size()) {
+  if (all.vertices.empty() && all.triangles.empty() && all.points.empty() && all.vertices.capacity() < more.vertices.size()) {
     more.short_faces += all.short_faces;
     all = std::move(more);
     return;
@@ -24,6 +24,7 @@ inline void append(RawMesh& all, RawMesh more) {
     for (auto& corner : moved) corner = corner < own ? first + corner : no_vertex;
   }
   all.short_faces += more.short_faces;
+  all.points.insert(all.points.end(), more.points.begin(), more.points.end());
 }
 
 }  // namespace mansard::formats

@@ -18,6 +18,7 @@ struct RawMesh {
   std::vector<geometry::Triangle> triangles;  ///< may name vertices that do not exist
   std::uint64_t short_faces = 0;              ///< faces of fewer than three corners, left out
   std::vector<std::uint8_t> classes;          ///< per triangle, where the file has them; else empty
+  std::vector<geometry::Point3> points;       ///< of which a surface was made; of files of meshes none
 };
 
 /// Index of a face's corner as 32 bits.

@@ -327,6 +327,10 @@ auto clean(formats::RawMesh raw, const std::array<double, 3>& shift, const std::
     for (std::size_t v = first; v < end; ++v) raw.vertices[v] = moved(raw.vertices[v], shift);
   });
 
+  out.mesh.points = std::move(raw.points);
+  for (Point3& p : out.mesh.points) p = moved(p, shift);
+  std::erase_if(out.mesh.points, [&](Point3 p) { return !usable(p) || (within && !within->contains(xy(p))); });
+
   auto& triangles = out.mesh.triangles;
   triangles = std::move(raw.triangles);
   out.classes = std::move(raw.classes);

@@ -304,6 +304,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     }
     pieces[i].mesh.vertices = std::move(made->mesh.vertices);
     pieces[i].mesh.triangles = std::move(made->mesh.triangles);
+    pieces[i].mesh.points = std::move(made->mesh.points);
     grounds[i] = std::move(made->ground);
     if (cells_ != nullptr) into_cells(pieces[i]);
     const std::scoped_lock lock(mutex);

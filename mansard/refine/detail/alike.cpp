@@ -131,12 +131,12 @@ class Alike {
     const std::size_t first = lines_.size();
     double cap = 0;
     for (std::size_t i = 0; i < site.cells.size(); ++i) {
-      const auto cell = site.cells[i];
-      if (std::isnan(view.z[cell])) continue;
-      const auto& face = sketch.faces[view.face[cell]];
-      const double off = std::abs(site.measured.z[cell] - view.z[cell]);
+      const double roof = view.z_of(site, i);
+      if (std::isnan(roof)) continue;
+      const auto& face = sketch.faces[view.face_of(site, i)];
+      const double off = std::abs(site.z[i] - roof);
       const double weight =
-          site.weight[i] * site.cell_area * (off <= options_.lines.robust ? 1 : options_.lines.robust / off);
+          site.weight[i] * site.sample_area * (off <= options_.lines.robust ? 1 : options_.lines.robust / off);
       if (face.kind == model::FaceKind::cap) cap += weight;
       if (!face.provenance || face.kind == model::FaceKind::connector) continue;
       const Edge& edge = edges[face.provenance->ring][face.provenance->edge];
@@ -156,12 +156,12 @@ class Alike {
                           {},
                           false,
                           0});
-      const double d = edge.to(site.measured.centre(cell));
-      const double within = site.measured.spacing * site.measured.spacing / 12;  // of a cell about its centre
+      const double d = edge.to(site.places[i]);
+      const double within = site.of_points ? 0 : site.cell_area / 12;  // of a cell about its centre
       auto& sums = lines_[at->second].sums;
       sums[0] += weight, sums[1] += weight * d, sums[2] += weight * (d * d + within);
     }
-    if (cap >= static_cast<double>(options_.refit.min_cap_samples) * site.cell_area) caps_.push_back({p, cap, 0});
+    if (cap >= static_cast<double>(options_.refit.min_cap_samples) * site.sample_area) caps_.push_back({p, cap, 0});
     if (lines_.size() > first) collect_ridges(p, edges);
   }
 

@@ -34,16 +34,17 @@ auto carried(const model::Solid& solid, const View& view, const Site& site, cons
              double noise) -> std::vector<double> {
   std::vector<double> out(solid.faces.size(), 0);
   const auto& grid = site.measured;
-  for (const auto cell : site.cells) {
-    if (std::isnan(view.z[cell])) continue;
-    const auto f = view.face[cell];
+  for (std::size_t i = 0; i < site.cells.size(); ++i) {
+    const auto cell = site.cells[i];
+    if (std::isnan(view.z_of(site, i))) continue;
+    const auto f = view.face_of(site, i);
     if (!steep[f]) continue;
     const std::size_t column = cell % grid.columns, row = cell / grid.columns;
     if (column == 0 || row == 0 || column + 1 == grid.columns || row + 1 == grid.rows) continue;
     const auto same = [&](std::size_t other) { return !std::isnan(view.z[other]) && view.face[other] == f; };
     if (!same(cell - 1) || !same(cell + 1) || !same(cell - grid.columns) || !same(cell + grid.columns)) continue;
     const double upright = solid.faces[f].normal.z;
-    if (std::abs(view.z[cell] - grid.z[cell]) * upright <= noise) out[f] += site.cell_area / upright;
+    if (std::abs(view.z_of(site, i) - site.z[i]) * upright <= noise) out[f] += site.sample_area / upright;
   }
   return out;
 }

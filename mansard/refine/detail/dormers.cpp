@@ -179,12 +179,12 @@ auto islands(const Judged& judged, const Site& site, const Slope& slope, double 
     -> std::vector<std::vector<std::uint32_t>> {
   const auto& grid = site.measured;
   std::vector<std::uint8_t> out_of_it(grid.z.size(), 0);
-  for (const auto cell : site.cells)
+  for (std::size_t cell = 0; cell < grid.z.size(); ++cell)
     if (!std::isnan(judged.view.z[cell]) && judged.view.face[cell] == slope.face &&
         grid.z[cell] - judged.view.z[cell] > above)
       out_of_it[cell] = 1;
   std::vector<std::vector<std::uint32_t>> found;
-  for (const auto cell : site.cells) {
+  for (std::uint32_t cell = 0; cell < grid.z.size(); ++cell) {
     if (!out_of_it[cell]) continue;
     std::vector<std::uint32_t> island{cell};
     out_of_it[cell] = 0;
@@ -303,18 +303,19 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     const auto cell = site.cells[i];
-    if (std::isnan(judged.view.z[cell]) || judged.view.face[cell] != slope.face) continue;
-    if (site.weight[i] < 1) continue;                                        // a melted wall
-    const bool other = site.measured.z[cell] - judged.view.z[cell] > above;  // of another dormer
+    const double roof = judged.view.z_of(site, i);
+    if (std::isnan(roof) || judged.view.face_of(site, i) != slope.face) continue;
+    if (site.weight[i] < 1) continue;                 // a melted wall
+    const bool other = site.z[i] - roof > above;  // of another dormer
     if (other && !std::ranges::binary_search(own, cell)) continue;
-    const Point2 p = site.measured.centre(cell);
-    const Sample s{slope.u_of(p), slope.v_of(p), site.measured.z[cell]};
+    const Point2 p = site.places[i];
+    const Sample s{slope.u_of(p), slope.v_of(p), site.z[i]};
     if (s.u > start.left - reach && s.u < start.right + reach && s.v > start.front - reach && s.v < last + reach)
       samples.push_back(s);
   }
   constexpr double walls_move = 0.5;  // m: two samples
   const double all = error_of(samples, slope, nullptr, 0);
-  if (all * site.cell_area < o.price) return std::nullopt;  // no box saves more than there is
+  if (all * site.sample_area < o.price) return std::nullopt;  // no box saves more than there is
   start.front -= site.measured.spacing;                     // a scan's front leans back
   start.eaves = base::percentile(std::move(heights), 0.8);
   start.eaves = std::max(start.eaves, slope.at(start.front) + o.min_rise);
@@ -403,10 +404,18 @@ auto dormers_on(const Judged& judged, const Site& site, const Options& options, 
   return out;
 }
 
-void paint(const Dormer& dormer, const Heights& grid, std::vector<double>& z) {
+void paint(const Dormer& dormer, const Site& site, View& view) {
+  const auto& grid = site.measured;
   const auto& p = dormer.plan.outer.points;  // front left, front right, back right, back left
   const Point2 along = geometry::normalised(p[1] - p[0]), inward = geometry::left_of(along);
   const double width = dot(p[1] - p[0], along), depth = dot(p[3] - p[0], inward);
+  const auto raise = [&](Point2 place, double& height) {
+    const Point2 at = place - p[0];
+    const double u = dot(at, along), v = dot(at, inward);
+    if (u < 0 || u > width || v < 0 || v > depth) return;
+    height = std::max(height, dormer.eaves + dormer.pitch * (width / 2 - std::abs(u - width / 2)));
+  };
+  for (std::size_t i = 0; i < view.z_at.size(); ++i) raise(site.places[i], view.z_at[i]);
   const auto box = geometry::bounds(p);
   const auto index = [&grid](double at, double origin, std::size_t count) {
     return static_cast<std::size_t>(
@@ -415,13 +424,8 @@ void paint(const Dormer& dormer, const Heights& grid, std::vector<double>& z) {
   const std::size_t last_row = index(box.most.y, grid.origin.y, grid.rows);
   const std::size_t last_column = index(box.most.x, grid.origin.x, grid.columns);
   for (std::size_t row = index(box.least.y, grid.origin.y, grid.rows); row < last_row; ++row)
-    for (std::size_t column = index(box.least.x, grid.origin.x, grid.columns); column < last_column; ++column) {
-      const Point2 at = grid.centre(column, row) - p[0];
-      const double u = dot(at, along), v = dot(at, inward);
-      if (u < 0 || u > width || v < 0 || v > depth) continue;
-      double& height = z[row * grid.columns + column];
-      height = std::max(height, dormer.eaves + dormer.pitch * (width / 2 - std::abs(u - width / 2)));
-    }
+    for (std::size_t column = index(box.least.x, grid.origin.x, grid.columns); column < last_column; ++column)
+      raise(grid.centre(column, row), view.z[row * grid.columns + column]);
 }
 
 auto with_hole(const Plan& host, const Dormer& dormer) -> Plan {
@@ -436,16 +440,16 @@ auto with_hole(const Plan& host, const Dormer& dormer) -> Plan {
 
 auto without_dormers(const Site& site, const std::vector<Dormer>& dormers, double aside, const Options& options)
     -> Site {
-  Site out = site;
-  for (const auto& dormer : dormers) {
-    const geometry::Polygon polygon = model::polygon_of(dormer.plan);
-    for (const auto cell : site.cells) {
-      const Point2 at = site.measured.centre(cell);
-      if (geometry::contains(polygon, at) || geometry::boundary_distance(polygon, at) < aside)
-        out.measured.z[cell] = not_seen;
-    }
-  }
-  return crop(out, site.polygon, options);
+  std::vector<geometry::Polygon> polygons;
+  for (const auto& dormer : dormers) polygons.push_back(model::polygon_of(dormer.plan));
+  return without(
+      site,
+      [&](Point2 at) {
+        return std::ranges::any_of(polygons, [&](const geometry::Polygon& polygon) {
+          return geometry::contains(polygon, at) || geometry::boundary_distance(polygon, at) < aside;
+        });
+      },
+      options);
 }
 
 }  // namespace mansard::refine::detail

@@ -30,8 +30,8 @@ enum class Where : std::uint8_t {
 [[nodiscard]] auto dormers_on(const Judged& judged, const Site& site, const Options& options,
                               Where where = Where::whole) -> std::vector<Dormer>;
 
-/// Adds the dormer to a roof's heights above the base, by cell of the grid.
-void paint(const Dormer& dormer, const Heights& grid, std::vector<double>& z);
+/// Adds the dormer to a roof as it is seen from above.
+void paint(const Dormer& dormer, const Site& site, View& view);
 
 /// The host's plan with a hole for the dormer.
 [[nodiscard]] auto with_hole(const model::Plan& host, const Dormer& dormer) -> model::Plan;

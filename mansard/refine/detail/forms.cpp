@@ -39,9 +39,8 @@ auto looks_over(const Plan& plan, const std::vector<bool>& carries, const Site& 
   const auto eaves = eaves_of(plan, carries);
   std::vector<Look> looks;
   for (std::size_t i = 0; i < site.cells.size(); i += stride) {
-    const auto cell = site.cells[i];
-    if (const auto near = nearest_eaves(eaves, site.centres[i]))
-      looks.push_back({near->inward, site.measured.z[cell], site.weight[i]});
+    if (const auto near = nearest_eaves(eaves, site.places[i]))
+      looks.push_back({near->inward, site.z[i], site.weight[i]});
   }
   return looks;
 }
@@ -65,7 +64,7 @@ auto misfit_of(std::span<const Look> looks, const Site& site, const Options& opt
   double sum = 0;
   for (const Look& look : looks) sum += look.weight * loss(height(look) - look.height, options.robust);
   return sum / static_cast<double>(std::max<std::size_t>(1, looks.size())) * static_cast<double>(site.cells.size()) *
-         site.cell_area;
+         site.sample_area;
 }
 
 /// The one line that suits all sides that carry roof.
@@ -227,10 +226,9 @@ auto setbacks_of(const Plan& plan, const Site& site, const Options& options) -> 
   const auto eaves = eaves_of(plan, std::vector<bool>(plan.profiles.size(), true));
   std::vector<std::vector<Look>> looks(plan.profiles.size());
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
-    const auto cell = site.cells[i];
     if (site.weight[i] < 1) continue;  // the melted wall hides how level the strip is
-    if (const auto near = nearest_eaves(eaves, site.centres[i]))
-      looks[near->profile].push_back({near->inward, site.measured.z[cell], site.weight[i]});
+    if (const auto near = nearest_eaves(eaves, site.places[i]))
+      looks[near->profile].push_back({near->inward, site.z[i], site.weight[i]});
   }
   std::vector<std::vector<Profile>> out;
   for (auto& of_side : looks) out.push_back(setback(std::move(of_side), options));

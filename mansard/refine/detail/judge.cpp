@@ -46,7 +46,20 @@ auto priced_faces(const model::Solid& sketch) -> double {
 
 }  // namespace
 
-auto Judge::misfit_of(const std::vector<double>& z, double cap, double most) const -> double {
+auto Judge::misfit_of(const View& view, double cap, double most) const -> double {
+  const auto& z = view.z;
+  if (site_.of_points) {
+    double sum = 0;
+    for (std::size_t i = 0; i < site_.z.size(); ++i) {
+      const double roof = view.z_at[i];  // NaN past the solid, which falls to its base there
+      sum += site_.weight[i] * loss((roof == roof ? std::min(roof, cap) : 0) - site_.z[i], options_.robust);
+    }
+    sum *= site_.sample_area;
+    for (const auto& [cell, ceiling] : site_.ceilings)
+      if (const double above = std::min(z[cell], cap) - ceiling; above > 0)
+        sum += loss(above, options_.robust) * site_.cell_area;
+    return sum;
+  }
   // The heights as the scan would have them, smoothed as it was measured to smooth. Else a slope would suit the scan of
   // a step better than the step. A sample past the solid (its outline is rounded by some millimetres) falls to its
   // base.
@@ -117,7 +130,7 @@ auto Judge::again(const model::Plan& plan, double most) const -> std::optional<J
   if (!known) return std::nullopt;
   Judged out{plan, known->sketch, {}, known->misfit, known->bare, 0, 0};
   price(out);
-  if (out.cost < most) out.view = view_of(out.sketch, site_.measured, site_.base);
+  if (out.cost < most) out.view = view_of(out.sketch, site_);
   return out;
 }
 
@@ -126,8 +139,8 @@ auto Judge::of(const model::Plan& plan, model::Solid sketch, double most) const 
   const double faces = options_.face_price * priced_faces(sketch);
   if (faces >= most) return std::nullopt;
   Judged out{plan, std::move(sketch), {}, 0, {}, 0, 0};
-  out.view = view_of(out.sketch, site_.measured, site_.base);
-  out.misfit = misfit_of(out.view.z, std::numeric_limits<double>::infinity(), most);
+  out.view = view_of(out.sketch, site_);
+  out.misfit = misfit_of(out.view, std::numeric_limits<double>::infinity(), most);
   if (out.misfit + faces >= most) return std::nullopt;
   out.bare = bare_faces(out.sketch, out.view, site_, options_);
   price(out);

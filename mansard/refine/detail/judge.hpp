@@ -46,9 +46,8 @@ class Judge {
   /// mostly known before all of it was compared.
   [[nodiscard]] auto cheaper(const model::Plan& plan, double than) const -> std::optional<Judged>;
 
-  /// m²·m²: of heights on the site's grid, cut off at `cap`, m above the base; NaN where there are none. A sum that
-  /// reaches `most` may end there.
-  [[nodiscard]] auto misfit_of(const std::vector<double>& z, double cap = std::numeric_limits<double>::infinity(),
+  /// m²·m²: of a roof, cut off at `cap`, m above the base. A sum that reaches `most` may end there.
+  [[nodiscard]] auto misfit_of(const View& view, double cap = std::numeric_limits<double>::infinity(),
                                double most = std::numeric_limits<double>::infinity()) const -> double;
 
   [[nodiscard]] auto site() const -> const Site& { return site_; }

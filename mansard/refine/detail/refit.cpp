@@ -112,16 +112,16 @@ auto sort_looks(const Judged& judged, const Site& site, const Options& options, 
   }
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     const auto cell = site.cells[i];
-    if (std::isnan(judged.view.z[cell])) continue;
-    const Target& target = targets[judged.view.face[cell]];
-    if (target.is_cap && site.weight[i] == 1) out.cap.push_back(site.measured.z[cell]);
+    if (std::isnan(judged.view.z_of(site, i))) continue;
+    const Target& target = targets[judged.view.face_of(site, i)];
+    if (target.is_cap && site.weight[i] == 1) out.cap.push_back(site.z[i]);
     if (!target.edge) continue;
-    const Point2 at = site.centres[i];
+    const Point2 at = site.places[i];
     const double inward = target.edge->to(at);
-    if (used == Used::all) target.looks->push_back({inward, site.measured.z[cell], site.weight[i]});
+    if (used == Used::all) target.looks->push_back({inward, site.z[i], site.weight[i]});
     else if (middle.holds(cell, judged.plan.profiles[target.edge->profile], target.part, at, inward,
                           target.edge->inward))
-      target.looks->push_back({inward, site.measured.z[cell], 1});
+      target.looks->push_back({inward, site.z[i], 1});
   }
   return out;
 }

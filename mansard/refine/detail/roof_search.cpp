@@ -26,7 +26,7 @@ using model::Profile;
 auto best_of(const std::vector<double>& caps, const Judge& judge, const Judged& uncut) -> double {
   double best = caps.front(), least = std::numeric_limits<double>::infinity();
   for (const double cap : caps) {
-    const double misfit = judge.misfit_of(uncut.view.z, cap);
+    const double misfit = judge.misfit_of(uncut.view, cap);
     if (misfit < judge.options().search.cap_gain * least) {
       least = misfit;
       best = cap;
@@ -105,12 +105,11 @@ auto misfit_by_side(const Judged& judged, const Judge& judge) -> std::vector<dou
   const auto& site = judge.site();
   std::vector<double> out(judged.plan.profiles.size(), 0);
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
-    const auto cell = site.cells[i];
-    const double difference = std::abs(judged.view.z[cell] - site.measured.z[cell]);
+    const double difference = std::abs(judged.view.z_of(site, i) - site.z[i]);
     if (std::isnan(difference)) continue;
-    if (const auto nearest = nearest_eaves(edges, site.centres[i]))
+    if (const auto nearest = nearest_eaves(edges, site.places[i]))
       out[nearest->profile] +=
-          site.weight[i] * difference * std::min(difference, judge.options().robust) * site.cell_area;
+          site.weight[i] * difference * std::min(difference, judge.options().robust) * site.sample_area;
   }
   return out;
 }
@@ -192,7 +191,7 @@ auto change_of(const Plan& before, const Plan& after) -> std::string {
 
 /// The squared error before and after, m².
 auto error_of(double before, double after, const Judge& judge) -> std::string {
-  const double area = judge.site().cell_area * static_cast<double>(judge.site().cells.size());
+  const double area = judge.site().sample_area * static_cast<double>(judge.site().cells.size());
   return ": squared error " + base::to_text(before / area, 2) + " → " + base::to_text(after / area, 2) + " m²";
 }
 

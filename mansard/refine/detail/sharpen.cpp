@@ -39,9 +39,8 @@ auto levelled(const Plan& plan, const Site& site, const Options::Forms& options)
 auto misfit_inside(const Judged& judged, const Site& site) -> double {
   double sum = 0;
   for (std::size_t i = 0; i < site.cells.size(); ++i)
-    if (const double d = judged.view.z[site.cells[i]] - site.measured.z[site.cells[i]]; site.weight[i] == 1 && d == d)
-      sum += d * d;
-  return sum * site.cell_area;
+    if (const double d = judged.view.z_of(site, i) - site.z[i]; site.weight[i] == 1 && d == d) sum += d * d;
+  return sum * site.sample_area;
 }
 
 /// Whether the pitches of a roof explain little of what a level one leaves. Over a level roof, too, some pitch suits a

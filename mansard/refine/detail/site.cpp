@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/refine/detail/blur.hpp"
@@ -90,10 +92,61 @@ auto unblurred_of(const Polygon& polygon, const Heights& grid, const Kernel& ker
   return out;
 }
 
-/// Lists the cells and weighs them.
+/// Of places, those inside the polygon.
+class Inside {
+ public:
+  Inside(const Polygon& polygon, const Heights& grid) : polygon_(polygon), grid_(grid), inside_(grid.z.size(), 0) {
+    each_inside(polygon, grid,
+                [&](std::size_t column, std::size_t row) { inside_[row * grid.columns + column] = 1; });
+  }
+  /// The cell of a place inside.
+  [[nodiscard]] auto operator()(Point2 place) const -> std::optional<std::uint32_t> {
+    const auto column = std::lround((place.x - grid_.origin.x) / grid_.spacing),
+               row = std::lround((place.y - grid_.origin.y) / grid_.spacing);
+    const auto columns = static_cast<long>(grid_.columns), rows = static_cast<long>(grid_.rows);
+    if (column < 0 || row < 0 || column >= columns || row >= rows) return std::nullopt;
+    const auto cell = static_cast<std::uint32_t>(row * columns + column);
+    int count = 0;
+    for (long r = std::max(row - 1, 0L); r <= std::min(row + 1, rows - 1); ++r)
+      for (long c = std::max(column - 1, 0L); c <= std::min(column + 1, columns - 1); ++c)
+        count += inside_[static_cast<std::size_t>(r * columns + c)];
+    return count == 9 || geometry::contains(polygon_, place) ? std::optional(cell) : std::nullopt;
+  }
+
+ private:
+  const Polygon& polygon_;
+  const Heights& grid_;
+  std::vector<char> inside_;
+};
+
+/// A measured point above the base.
+struct Measured {
+  Point2 place;
+  double z = 0;
+};
+
+void add_points(Site& site, std::span<const Measured> points, const Options& options) {
+  site.of_points = true;
+  site.sample_area = options.samples.point_area;
+  const Inside inside(site.polygon, site.measured);
+  for (const auto& [place, z] : points) {
+    const auto cell = inside(place);
+    if (!cell) continue;
+    site.cells.push_back(*cell);
+    site.places.push_back(place);
+    site.z.push_back(z);
+    site.weight.push_back(geometry::boundary_distance(site.polygon, place) < options.margin
+                              ? options.samples.margin_weight
+                              : 1);
+  }
+  site.sorted = site.z;
+  std::ranges::sort(site.sorted);
+}
+
+/// Samples the surface, and weighs the samples.
 void finish(Site& site, const Options& options) {
   const auto& grid = site.measured;
-  site.cell_area = grid.spacing * grid.spacing;
+  site.sample_area = site.cell_area;
   std::vector<bool> margin(grid.z.size(), false);
   const auto mark = [&](const geometry::Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i)
@@ -106,7 +159,8 @@ void finish(Site& site, const Options& options) {
   site.cells.reserve(count);
   site.sorted.reserve(count);
   site.weight.reserve(count);
-  site.centres.reserve(count);
+  site.places.reserve(count);
+  site.z.reserve(count);
   site.heights.assign(grid.z.size(), 0);
   site.weights.assign(grid.z.size(), 0);
   site.extents.assign(grid.rows, {0, 0});
@@ -117,7 +171,8 @@ void finish(Site& site, const Options& options) {
       site.cells.push_back(static_cast<std::uint32_t>(cell));
       site.sorted.push_back(grid.z[cell]);
       site.weight.push_back(weight);
-      site.centres.push_back(grid.centre(column, row));
+      site.places.push_back(grid.centre(column, row));
+      site.z.push_back(grid.z[cell]);
       site.heights[cell] = grid.z[cell];
       site.weights[cell] = weight;
       auto& [first, last] = site.extents[row];
@@ -137,7 +192,12 @@ auto spacing_over(const Polygon& polygon, const Options& options) -> double {
 
 /// Before anything is sampled.
 auto unseen_over(const Polygon& polygon, double base, double spacing) -> Site {
-  return {polygon, base, grid_over(polygon, spacing), {}, {}, {}, {}, 0, {}, {}, {}, {}, {}, {}};
+  Site site;
+  site.polygon = polygon;
+  site.base = base;
+  site.measured = grid_over(polygon, spacing);
+  site.cell_area = spacing * spacing;
+  return site;
 }
 
 /// The cells of one grid by those of another of the same spacing.
@@ -161,6 +221,11 @@ class Cells {
 
 }  // namespace
 
+auto Site::seen_area() const -> double {
+  return cell_area *
+         static_cast<double>(std::ranges::count_if(measured.z, [](double height) { return !std::isnan(height); }));
+}
+
 auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Options& options) -> Site {
   Site site = unseen_over(polygon, base, spacing_over(polygon, options));
   auto& grid = site.measured;
@@ -168,9 +233,27 @@ auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Op
     if (const auto z = mesh.top_inside_walls(grid.centre(column, row), base))
       grid.z[row * grid.columns + column] = *z - base;
   });
-  finish(site, options);
+  if (options.samples.point_area == 0) {
+    finish(site, options);
+    return site;
+  }
+  std::vector<Measured> points;
+  for (const auto& p : mesh.points_in(geometry::bounds(polygon.outer))) points.push_back({xy(p), p.z - base});
+  add_points(site, points, options);
   return site;
 }
+
+namespace {
+
+auto points_of(const Site& site) -> std::vector<Measured> {
+  std::vector<Measured> out;
+  out.reserve(site.z.size());
+  for (std::size_t i = 0; i < site.z.size(); ++i)
+    out.push_back({site.places[i], site.z[i]});
+  return out;
+}
+
+}  // namespace
 
 auto crop(const Site& site, const Polygon& piece, const Options& options) -> Site {
   Site out = unseen_over(piece, site.base, site.measured.spacing);
@@ -179,7 +262,8 @@ auto crop(const Site& site, const Polygon& piece, const Options& options) -> Sit
   each_inside(piece, grid, [&](std::size_t column, std::size_t row) {
     if (const auto other = cells.of(column, row)) grid.z[row * grid.columns + column] = site.measured.z[*other];
   });
-  finish(out, options);
+  if (site.of_points) add_points(out, points_of(site), options);
+  else finish(out, options);
   return out;
 }
 
@@ -197,13 +281,35 @@ auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene
     if (!std::isnan(z)) return;
     if (const auto top = mesh.top_inside_walls(grid.centre(column, row), a.base)) z = *top - a.base;
   });
-  finish(out, options);
+  if (options.samples.point_area == 0) {
+    finish(out, options);
+    return out;
+  }
+  std::vector<Measured> points;
+  for (const auto& p : mesh.points_in(geometry::bounds(both.outer))) points.push_back({xy(p), p.z - a.base});
+  add_points(out, points, options);
+  return out;
+}
+
+auto without(const Site& site, const std::function<bool(Point2)>& taken, const Options& options) -> Site {
+  Site out = unseen_over(site.polygon, site.base, site.measured.spacing);
+  out.measured.z = site.measured.z;
+  for (std::size_t cell = 0; cell < out.measured.z.size(); ++cell)
+    if (double& z = out.measured.z[cell]; !std::isnan(z) && taken(out.measured.centre(cell))) z = unseen;
+  if (!site.of_points) {
+    finish(out, options);
+    return out;
+  }
+  auto points = points_of(site);
+  std::erase_if(points, [&](const Measured& point) { return taken(point.place); });
+  add_points(out, points, options);
   return out;
 }
 
 auto without_cells(const Site& site, const Options& options) -> Site {
   Site out = unseen_over(site.polygon, site.base, site.measured.spacing);
   finish(out, options);
+  out.of_points = site.of_points;
   return out;
 }
 

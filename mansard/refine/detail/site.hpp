@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -16,26 +17,36 @@ namespace mansard::refine::detail {
 struct Site {
   geometry::Polygon polygon;
   double base = 0;                        ///< z, metres
-  Heights measured;                       ///< NaN where nothing was seen, or outside the polygon
-  std::vector<std::uint32_t> cells;       ///< those with a height, ascending
-  std::vector<double> weight;             ///< per entry of `cells`: less along the outline
-  std::vector<geometry::Point2> centres;  ///< per entry of `cells`
-  std::vector<double> sorted;             ///< the heights
-  double cell_area = 0;                   ///< m²
-  Kernel kernel;                          ///< by which the scan smooths, on this grid
+  Heights measured;  ///< of the scan's surface; NaN where there is none, or outside the polygon
+  double cell_area = 0;  ///< m²
+
+  // The samples: what the scan measured. Of a surface, its height at the centres of the cells, in their order; of
+  // points, each of them.
+  std::vector<std::uint32_t> cells;      ///< the cell that each lies in
+  std::vector<geometry::Point2> places;
+  std::vector<double> z;                 ///< m above the base
+  std::vector<double> weight;            ///< 1; less along the outline
+  std::vector<double> sorted;            ///< the heights
+  double sample_area = 0;                ///< m²; that each stands for
+  bool of_points = false;
+
+  Kernel kernel;  ///< by which the scan smooths, on this grid
   /// Per cell of the grid: 0 outside the polygon, else the factor that makes a sum of `blurred` a mean of what is
   /// inside.
   std::vector<double> unblurred;
-  /// The same as `measured` and `weight` for sums over whole rows: per cell of the grid, 0 where there is no height.
+  /// Of a surface, the same as `z` and `weight` for sums over whole rows: per cell of the grid, 0 where there is none.
   std::vector<double> heights, weights;
   /// Per row of the grid the columns [first, last) from its first cell with a height to its last.
   std::vector<std::pair<std::size_t, std::size_t>> extents;
   /// Cells without a height, and how high a roof there may be at most: the crown of a tree hides it.
   std::vector<std::pair<std::uint32_t, double>> ceilings{};
+
+  /// m²: of the ground over which the scan has a surface.
+  [[nodiscard]] auto seen_area() const -> double;
 };
 
 /// Looks down on the polygon every `grid` metres, at the centres of cells aligned to whole multiples of it; coarser
-/// over very large parts.
+/// over very large parts. Of a scan that consists of points, those over the polygon are the samples.
 [[nodiscard]] auto look(const geometry::Polygon& polygon, double base, const rays::Scene& mesh, const Options& options)
     -> Site;
 /// A piece of a site that was looked at already.
@@ -44,6 +55,10 @@ struct Site {
 /// Both pieces of ground as one, the polygon of both given: what was sampled over them, and what is between them.
 [[nodiscard]] auto merged(const Site& a, const Site& b, const geometry::Polygon& both, const rays::Scene& mesh,
                           const Options& options) -> Site;
+
+/// The same without what is seen at some places.
+[[nodiscard]] auto without(const Site& site, const std::function<bool(geometry::Point2)>& taken, const Options& options)
+    -> Site;
 
 /// The same of which nothing is seen.
 [[nodiscard]] auto without_cells(const Site& site, const Options& options) -> Site;

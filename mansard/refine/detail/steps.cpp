@@ -38,13 +38,12 @@ auto strip_of(const Judged& judged, const PlanRing& ring, std::uint32_t edge, do
   Strip out;
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     if (site.weight[i] < 1) continue;  // the melted wall hides how level the strip is
-    const auto cell = site.cells[i];
-    const Point2 at = site.centres[i] - a;
-    const double t = dot(at, along), d = dot(at, inward), z = site.measured.z[cell];
+    const Point2 at = site.places[i] - a;
+    const double t = dot(at, along), d = dot(at, inward), z = site.z[i];
     if (t <= 0 || t >= length || d <= from || d >= to) continue;
     out.looks.push_back({d, z, 1});
-    if (const double off = judged.view.z[cell] - z; !std::isnan(off))
-      out.misfit += loss(off, judge.options().robust) * site.cell_area;
+    if (const double off = judged.view.z_of(site, i) - z; !std::isnan(off))
+      out.misfit += loss(off, judge.options().robust) * site.sample_area;
   }
   std::ranges::stable_sort(out.looks, {}, &Look::inward);
   return out;

@@ -73,13 +73,60 @@ class Painter {
   View view_;
 };
 
+/// Whether the point is within the face's loops, by the even-odd rule.
+auto is_over(const model::Solid& solid, const model::Face& face, geometry::Point2 at) -> bool {
+  bool inside = false;
+  for (const auto& loop : face.loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Point3 &a = solid.vertices[loop[i]], &b = solid.vertices[loop[(i + 1) % loop.size()]];
+      if ((a.y <= at.y) == (b.y <= at.y)) continue;
+      if (at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+    }
+  return inside;
+}
+
+/// Beside the edge of a face a point may be over another face than the centre of its cell: one that is seen at a cell
+/// around it. Where it is over none of these, it is taken to be over that of its own cell.
+void see_samples(View& view, const model::Solid& solid, const Site& site) {
+  const auto& grid = site.measured;
+  view.z_at.assign(site.cells.size(), std::numeric_limits<double>::quiet_NaN());
+  view.face_at.assign(site.cells.size(), 0);
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  const auto seen = [&](std::size_t cell) { return std::isnan(view.z[cell]) ? none : view.face[cell]; };
+  std::vector<std::uint32_t> others;
+  for (std::size_t i = 0; i < site.cells.size(); ++i) {
+    const std::size_t cell = site.cells[i], column = cell % grid.columns, row = cell / grid.columns;
+    std::uint32_t face = seen(cell);
+    others.clear();
+    for (std::size_t r = row > 0 ? row - 1 : 0; r <= std::min(row + 1, grid.rows - 1); ++r)
+      for (std::size_t c = column > 0 ? column - 1 : 0; c <= std::min(column + 1, grid.columns - 1); ++c)
+        if (const auto other = seen(r * grid.columns + c);
+            other != face && other != none && std::ranges::find(others, other) == others.end())
+          others.push_back(other);
+    const auto place = site.places[i];
+    if (!others.empty() && (face == none || !is_over(solid, solid.faces[face], place))) {
+      const auto over =
+          std::ranges::find_if(others, [&](std::uint32_t f) { return is_over(solid, solid.faces[f], place); });
+      if (over != others.end()) face = *over;
+      else if (face == none) face = others.front();
+    }
+    if (face == none) continue;
+    const auto& normal = solid.faces[face].normal;
+    const Point3 at = solid.vertices[solid.faces[face].loops.front().front()];
+    view.face_at[i] = face;
+    view.z_at[i] = at.z - (normal.x * (place.x - at.x) + normal.y * (place.y - at.y)) / normal.z - site.base;
+  }
+}
+
 }  // namespace
 
-auto view_of(const model::Solid& solid, const Heights& grid, double base) -> View {
-  Painter painter(solid, grid, base);
+auto view_of(const model::Solid& solid, const Site& site) -> View {
+  Painter painter(solid, site.measured, site.base);
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f)
     if (solid.faces[f].normal.z > wall_normal) painter.paint(f);
-  return std::move(painter).view();
+  View view = std::move(painter).view();
+  if (site.of_points) see_samples(view, solid, site);
+  return view;
 }
 
 }  // namespace mansard::refine::detail

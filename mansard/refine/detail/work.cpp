@@ -170,12 +170,11 @@ auto Work::misfit_about(const Piece& piece, geometry::Point2 place, double withi
   const auto& site = piece.site;
   double sum = 0;
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
-    const auto cell = site.cells[i];
-    const auto off = site.centres[i] - place;
-    const double d = std::abs(piece.roof.view.z[cell] - site.measured.z[cell]);
+    const auto off = site.places[i] - place;
+    const double d = std::abs(piece.roof.view.z_of(site, i) - site.z[i]);
     if (dot(off, off) < within * within && !std::isnan(d)) sum += site.weight[i] * d * std::min(d, options_.robust);
   }
-  return sum * site.cell_area;
+  return sum * site.sample_area;
 }
 
 /// Both under one roof, where their grounds make one polygon.
@@ -208,13 +207,13 @@ auto Work::as_one(const Piece& a, const Piece& b, const Union& both) const -> st
 auto Work::misfit_near(const Piece& piece, const geometry::Polygon& other) const -> double {
   const auto& site = piece.site;
   double sum = 0;
-  for (const auto cell : site.cells) {
-    const double d = std::abs(piece.roof.view.z[cell] - site.measured.z[cell]);
+  for (std::size_t i = 0; i < site.cells.size(); ++i) {
+    const double d = std::abs(piece.roof.view.z_of(site, i) - site.z[i]);
     if (!(d > options_.cuts.min_step)) continue;
-    const auto at = site.measured.centre(cell);
-    if (geometry::boundary_distance(other, at) < options_.joins.recut_reach) sum += d * std::min(d, options_.robust);
+    if (geometry::boundary_distance(other, site.places[i]) < options_.joins.recut_reach)
+      sum += d * std::min(d, options_.robust);
   }
-  return sum * site.cell_area;
+  return sum * site.sample_area;
 }
 
 /// Whether two that touch may be cheaper as one: two flat roofs too far apart are not.
@@ -252,10 +251,10 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   if (fewest >= worth) return {};
   for (const auto& polygon : polygons) {
     Site site = without_remnants(with_ceilings(crop(piece.site, polygon, options_)));
-    const auto known = site.cells.size() + too_high_over(site, piece.site.measured, piece.roof.view.z);
-    if (known == 0 ||
-        site.cell_area * static_cast<double>(known) < options_.pieces.seen_share * geometry::area(polygon))
-      return {};
+    const auto too_high = too_high_over(site, piece.site.measured, piece.roof.view.z);
+    if (site.cells.empty() && too_high == 0) return {};
+    const double known = site.seen_area() + site.cell_area * static_cast<double>(too_high);
+    if (known < options_.pieces.seen_share * geometry::area(polygon)) return {};
     Draft draft = draft_of(origin, site, options_);
     const bool rest = out.empty() && !proposal.whole_side;  // its roof was found before; a little of it is gone
     const Search search = rest ? Search::settled : Search::quick;
@@ -266,6 +265,13 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
     if (left - fewest <= options_.same_cost) return {};
     out.push_back(std::move(*made));
   }
+  return out;
+}
+
+/// A roof as it is seen over another site of the same grid: with or without the samples of what stands on it.
+auto seen_over(const Judged& roof, const Site& site) -> Judged {
+  Judged out = roof;
+  if (site.of_points) out.view = view_of(roof.sketch, site);
   return out;
 }
 
@@ -289,12 +295,12 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
     best = Found{std::move(*roof), without, cost};
   };
   const auto try_beside_dormers_of = [&](const Judged& roof, bool thorough) {
-    const auto dormers = dormers_on(roof, all, options_, Where::anywhere);
+    const auto dormers = dormers_on(seen_over(roof, all), all, options_, Where::anywhere);
     if (dormers.empty()) return;
     const Site without = detail::without_dormers(all, dormers, options_.samples.melt, options_);
     if (without.cells.empty()) return;
     const Judge judge(without, options_, raising_, run_);
-    consider(judge(refitted(roof, without, options_)), without);
+    consider(judge(refitted(seen_over(roof, without), without, options_)), without);
     if (!thorough) return;
     if (auto again = roofed(piece.draft_index, without, piece.draft)) consider(std::move(again->roof), without);
   };
@@ -322,15 +328,16 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
 /// ground, m²·m².
 auto Work::dormers_of(const Judged& roof, const Site& all) const -> std::pair<std::vector<Dormer>, double> {
   const Judge judge(all, options_, raising_, run_);
-  auto z = roof.view.z;  // the site without dormers has the same grid
-  double misfit = judge.misfit_of(z);
+  const Judged over = seen_over(roof, all);
+  View view = over.view;
+  double misfit = judge.misfit_of(view);
   std::vector<Dormer> out;
-  for (auto& dormer : dormers_on(roof, all, options_)) {
-    auto with = z;
-    paint(dormer, all.measured, with);
+  for (auto& dormer : dormers_on(over, all, options_)) {
+    View with = view;
+    paint(dormer, all, with);
     const double then = judge.misfit_of(with);
     if (!cheaper(then, misfit, options_.same_cost)) continue;
-    z = std::move(with);
+    view = std::move(with);
     misfit = then;
     out.push_back(std::move(dormer));
   }
