@@ -1,7 +1,7 @@
 # mansard_find_library(name [REQUIRED]): finds the library that a module names in USES, and sets MANSARD_LIBRARY_TARGET to
 # its target and MANSARD_LIBRARY_PACKAGE to what Debian calls it. Also installed, beside mansardConfig.cmake, so that
 # programs outside find the same libraries in the same way.
-set(MANSARD_HEADERS_ONLY Boost::multiprecision nlohmann_json wabt)
+set(MANSARD_HEADERS_ONLY Boost::multiprecision nlohmann_json nanoflann wabt)
 
 # A library that comes without a CMake package: NAME, then the files to link.
 macro(mansard_plain_library name)
@@ -68,6 +68,10 @@ macro(mansard_find_library name)
     set(MANSARD_LIBRARY_PACKAGE nlohmann-json3-dev)
     find_package(nlohmann_json ${ARGN})
     set(MANSARD_LIBRARY_TARGET nlohmann_json::nlohmann_json)
+  elseif("${name}" STREQUAL "nanoflann")
+    set(MANSARD_LIBRARY_PACKAGE libnanoflann-dev)
+    find_package(nanoflann ${ARGN})
+    set(MANSARD_LIBRARY_TARGET nanoflann::nanoflann)
   elseif("${name}" STREQUAL "wabt")  # its header and a program: cmake/laz.cmake, which does without where they are missing
     set(MANSARD_LIBRARY_PACKAGE wabt)
     if(NOT TARGET mansard_wabt)

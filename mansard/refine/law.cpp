@@ -26,6 +26,11 @@ constexpr double reach = 2.5;
 /// m: kernels of five cells of 0.25 m and of solids that were smoothed by more, whose tall steps are no wider.
 constexpr double most_blur = 0.25;
 
+/// Nominal spacings: a wall is anywhere between two points, and points on it are seen so far from it.
+constexpr double between_points = 0.5;
+/// Smallest details: a point that is farther from a roof is of something else.
+constexpr double stray = 10;
+
 /// Weights of a sample within the margin of an outline. What is rounded is explained in part, by the same smoothing of
 /// the roof; where an edge was sampled beside its place, the difference is the height of the wall and says nothing.
 constexpr double weight_of_rounded = 0.2, weight_of_rough = 0.05;
@@ -62,10 +67,13 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
 
   // A point is where it was measured: only the surface that is drawn between points rounds anything.
   o.samples.point_area = scan.point_area;
+  o.samples.noise = scan.noise;
+  o.samples.stray = stray * o.detail;
   const bool points = scan.point_area > 0;
   const double blur = points ? 0 : scan.blur * scan.blur, rough = points ? 0 : scan.edge_noise * scan.edge_noise,
                edge = std::sqrt(blur + rough);
   o.margin = std::min(most_margin, reach * edge);
+  if (points) o.margin = std::min(most_margin, std::hypot(reach * scan.noise, between_points * std::sqrt(scan.point_area)));
   o.samples.margin_weight =
       blur + rough > 0 ? (weight_of_rounded * blur + weight_of_rough * rough) / (blur + rough) : weight_of_rough;
   o.samples.melt = std::clamp(reach * edge, o.grid / 2, most_melt);  // a sample is of all of its cell

@@ -40,6 +40,8 @@ struct Options {
     double melt = 0.5;                            ///< m; no option: decided_by
     double blur = 0.25;                           ///< m; no option: decided_by
     double point_area = 0;                        ///< m² a point; 0: a surface is sampled. No option: decided_by
+    double noise = 0;                             ///< m; of a point. No option: decided_by
+    double stray = 1;                             ///< m; points farther off count no more. No option: decided_by
   } samples;
 
   /// Robust lines through heights (lines).

@@ -29,6 +29,11 @@ constexpr double off_centre = 0.25;   // of the radius: the disc is cut off by a
 /// a fifth of all is even. Where five sixths are, it is the quantile of `even_quantile` of those.
 constexpr double quantile = 0.1, even_quantile = 0.12;
 
+/// Of the variance, from a disc of twelve samples to one five times as large. Of independent noise the ratio of both is
+/// distributed as F with about 57 and 9 degrees of freedom, whose quartile is 0.8 and upper quartile 1.5; of noise that
+/// is correlated over the larger disc it is 5 and more.
+constexpr double most_growth = 1.5;
+
 constexpr double pi = std::numbers::pi;
 
 /// By quadrature over the disc: the trace of the covariance of noise exp(−d² / 2 ℓ²) without its projection on 1, x and
@@ -119,6 +124,56 @@ auto Cells::ground_of_one(std::span<const Point2> places) const -> double {
   return pi * largest_radius * largest_radius * static_cast<double>(places.size()) / std::max(1.0, all);
 }
 
+auto Cells::disc_at(Point2 at, double radius, std::size_t every) const -> std::optional<Disc> {
+  geometry::PlaneSums sums;
+  double zz = 0;
+  std::optional<double> level;
+  each_near(at, radius, [&](std::size_t i, Point3 p) {
+    if (i % every != 0) return;
+    if (!level) level = p.z;
+    const double z = p.z - *level;
+    sums.add(p.x - at.x, p.y - at.y, z);
+    zz += z * z;
+  });
+  if (sums.count < static_cast<double>(full)) return std::nullopt;
+  const Point2 centre{sums.x / sums.count, sums.y / sums.count};
+  const auto equations = sums.centred();
+  const bool even =
+      length(centre) <= off_centre * radius && equations.determinant() > 0.05 * equations.xx * equations.yy;
+  if (!even) return std::nullopt;
+  const Point2 slope = equations.slopes();
+  const double rest = zz - sums.z * sums.z / sums.count - slope.x * equations.xz - slope.y * equations.yz;
+  return Disc{std::max(0.0, rest / sums.count) / (1 + dot(slope, slope)), sums.count};
+}
+
+auto Cells::independent(std::span<const Point2> places, double ground) const -> std::optional<Noise> {
+  const double radius = std::sqrt(full * ground / pi) * 1.05, larger = growth * growth * radius;
+  struct Both {
+    double grows = 0, squared = 0;
+  };
+  std::vector<Both> all;
+  for (const Point2 at : places) {
+    const auto small = disc_at(at, radius, 1), large = disc_at(at, larger, 1);
+    if (!small || !large) continue;
+    // Without the three numbers of the plane that the noise itself has chosen.
+    const double a = small->squared * small->count / (small->count - 3),
+                 b = large->squared * large->count / (large->count - 3);
+    all.push_back({a > 0 ? b / a : 1, b});
+  }
+  if (all.size() < least_discs || static_cast<double>(all.size()) < least_share * static_cast<double>(places.size()))
+    return std::nullopt;
+  // Noise that is correlated grows from disc to disc everywhere; where a disc holds more than one roof it grows, too,
+  // but there are always places that are even in both.
+  std::ranges::sort(all, {}, &Both::grows);
+  const std::size_t quarter = all.size() / 4;
+  if (all[quarter].grows > most_growth) return std::nullopt;
+  std::vector<double> squares;
+  for (const auto& one : all)
+    if (one.grows <= most_growth) squares.push_back(one.squared);
+  const std::size_t discs = squares.size();
+  return Noise{std::sqrt(base::median(std::move(squares))), ground, discs};
+}
+
 auto Cells::residuals(std::span<const Point2> places, double ground, double least) const -> std::vector<Residual> {
   std::vector<double> all;
   for (double radius = std::max(least, std::sqrt(full * ground / pi) * 1.05); radius < largest_radius; radius *= growth)
@@ -129,28 +184,11 @@ auto Cells::residuals(std::span<const Point2> places, double ground, double leas
     const double radius = all[k];
     const auto every = static_cast<std::size_t>(std::max(1.0, pi * radius * radius / ground / used));
     std::vector<double> squares, counts;
-    for (const Point2 at : places) {
-      geometry::PlaneSums sums;
-      double zz = 0;
-      std::optional<double> level;
-      each_near(at, radius, [&](std::size_t i, Point3 p) {
-        if (i % every != 0) return;
-        if (!level) level = p.z;
-        const double z = p.z - *level;
-        sums.add(p.x - at.x, p.y - at.y, z);
-        zz += z * z;
-      });
-      if (sums.count < static_cast<double>(full)) continue;
-      const Point2 centre{sums.x / sums.count, sums.y / sums.count};
-      const auto equations = sums.centred();
-      const bool even =
-          length(centre) <= off_centre * radius && equations.determinant() > 0.05 * equations.xx * equations.yy;
-      if (!even) continue;
-      const Point2 slope = equations.slopes();
-      const double rest = zz - sums.z * sums.z / sums.count - slope.x * equations.xz - slope.y * equations.yz;
-      squares.push_back(std::max(0.0, rest / sums.count) / (1 + dot(slope, slope)));
-      counts.push_back(sums.count);
-    }
+    for (const Point2 at : places)
+      if (const auto disc = disc_at(at, radius, every)) {
+        squares.push_back(disc->squared);
+        counts.push_back(disc->count);
+      }
     if (squares.size() < least_discs ||
         static_cast<double>(squares.size()) < least_share * static_cast<double>(places.size()))
       return;
@@ -185,7 +223,11 @@ auto noise_from(std::span<const Residual> residuals, double ground) -> std::opti
   const double white = std::sqrt(ground / (2 * pi));
   Noise best;
   double least = std::numeric_limits<double>::infinity();
-  for (double length = white; length < std::max(largest_radius, 1.5 * white); length *= 1.05) {
+  // What is not seen is not claimed: noise that is correlated farther than the discs reach would be extrapolated from
+  // how it begins to grow; and where discs have begun to hold more than one roof, that is in the last of them, too.
+  constexpr double seen = 1.4, seen_of_one_roof = 2.8;  // correlation lengths
+  const double longest = kept.back().radius / (count < residuals.size() ? seen_of_one_roof : seen);
+  for (double length = white; length < std::max(longest, 1.5 * white); length *= 1.05) {
     std::vector<double> off;
     for (const auto& one : kept) {
       const double t = one.radius / length;

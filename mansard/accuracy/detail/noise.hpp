@@ -36,8 +36,17 @@ class Cells {
   /// full.
   [[nodiscard]] auto residuals(std::span<const geometry::Point2> places, double ground_of_one, double least = 0) const
       -> std::vector<Residual>;
+  /// The noise where it is independent from point to point: where many places are as even over a disc with five dozen
+  /// points as over one with one dozen. None where it is correlated, or too few places are even.
+  [[nodiscard]] auto independent(std::span<const geometry::Point2> places, double ground_of_one) const
+      -> std::optional<Noise>;
 
  private:
+  /// Of the points within a radius, every so many: the mean squared distance from the plane through them.
+  struct Disc {
+    double squared = 0, count = 0;
+  };
+  [[nodiscard]] auto disc_at(geometry::Point2 at, double radius, std::size_t every) const -> std::optional<Disc>;
   template <class See>
   void each_near(geometry::Point2 at, double radius, See see) const;
 

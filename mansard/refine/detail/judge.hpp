@@ -1,6 +1,7 @@
 // A plan raised, seen from above and held against the mesh.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -18,6 +19,13 @@ namespace mansard::refine::detail {
 [[nodiscard]] inline auto loss(double difference, double robust) -> double {
   const double d = std::abs(difference);
   return d <= robust ? d * d : robust * (2 * d - robust);
+}
+
+/// Squared up to `stray`, and the same beyond: a point that is farther off is of something else, a plant, a wire, the
+/// ground in a gap, and no roof suits it better for coming a little nearer (P. Huber and E. Ronchetti, Robust
+/// Statistics, 2009, section 4.8: redescending estimates).
+[[nodiscard]] inline auto stray_loss(double difference, double stray) -> double {
+  return std::min(difference * difference, stray * stray);
 }
 
 struct Judged {

@@ -183,6 +183,7 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
   if (options.effort == Effort::parts) {
     Pieces search(std::move(pieces), work);
     search.join();
+    search.cut_anew();  // a wall between two drafts that is not where the scan has it would be explained by cuts
     search.split();
     search.cut_anew();
     search.join();  // what was cut may fit its neighbours now

@@ -14,6 +14,7 @@ namespace mansard::refine::detail {
 namespace {
 
 using geometry::Point2;
+using geometry::Point3;
 using geometry::Polygon;
 
 constexpr double unseen = std::numeric_limits<double>::quiet_NaN();
@@ -226,20 +227,33 @@ auto Site::seen_area() const -> double {
          static_cast<double>(std::ranges::count_if(measured.z, [](double height) { return !std::isnan(height); }));
 }
 
-auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Options& options) -> Site {
+namespace {
+
+/// m: of the surface above the ground, by points where there are any near.
+auto height_at(Point2 place, double base, const rays::Scene& mesh, const Evidence* points) -> std::optional<double> {
+  if (points == nullptr) return mesh.top_inside_walls(place, base);
+  if (const auto z = points->height_at(place)) return z;
+  return mesh.top(place);
+}
+
+auto measured_over(const Polygon& polygon, double base, const Evidence& evidence) -> std::vector<Measured> {
+  std::vector<Measured> out;
+  for (const Point3 p : evidence.in(geometry::bounds(polygon.outer))) out.push_back({xy(p), p.z - base});
+  return out;
+}
+
+}  // namespace
+
+auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Options& options, const Evidence* points)
+    -> Site {
   Site site = unseen_over(polygon, base, spacing_over(polygon, options));
   auto& grid = site.measured;
   each_inside(polygon, grid, [&](std::size_t column, std::size_t row) {
-    if (const auto z = mesh.top_inside_walls(grid.centre(column, row), base))
+    if (const auto z = height_at(grid.centre(column, row), base, mesh, points))
       grid.z[row * grid.columns + column] = *z - base;
   });
-  if (options.samples.point_area == 0) {
-    finish(site, options);
-    return site;
-  }
-  std::vector<Measured> points;
-  for (const auto& p : mesh.points_in(geometry::bounds(polygon.outer))) points.push_back({xy(p), p.z - base});
-  add_points(site, points, options);
+  if (points == nullptr) finish(site, options);
+  else add_points(site, measured_over(polygon, base, *points), options);
   return site;
 }
 
@@ -267,27 +281,22 @@ auto crop(const Site& site, const Polygon& piece, const Options& options) -> Sit
   return out;
 }
 
-auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene& mesh, const Options& options)
-    -> Site {
+auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene& mesh, const Options& options,
+            const Evidence* points) -> Site {
   Site out = unseen_over(both, a.base, spacing_over(both, options));
   auto& grid = out.measured;
   if (a.measured.spacing != grid.spacing || b.measured.spacing != grid.spacing)
-    return look(both, a.base, mesh, options);
+    return look(both, a.base, mesh, options, points);
   const Cells in_a(a.measured, grid), in_b(b.measured, grid);
   each_inside(both, grid, [&](std::size_t column, std::size_t row) {
     double& z = grid.z[row * grid.columns + column];
     if (const auto cell = in_a.of(column, row)) z = a.measured.z[*cell];
     if (const auto cell = in_b.of(column, row); cell && std::isnan(z)) z = b.measured.z[*cell] + (b.base - a.base);
     if (!std::isnan(z)) return;
-    if (const auto top = mesh.top_inside_walls(grid.centre(column, row), a.base)) z = *top - a.base;
+    if (const auto top = height_at(grid.centre(column, row), a.base, mesh, points)) z = *top - a.base;
   });
-  if (options.samples.point_area == 0) {
-    finish(out, options);
-    return out;
-  }
-  std::vector<Measured> points;
-  for (const auto& p : mesh.points_in(geometry::bounds(both.outer))) points.push_back({xy(p), p.z - a.base});
-  add_points(out, points, options);
+  if (points == nullptr) finish(out, options);
+  else add_points(out, measured_over(both, a.base, *points), options);
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/rays/rays.hpp"
 #include "mansard/refine/detail/blur.hpp"
+#include "mansard/refine/detail/evidence.hpp"
 #include "mansard/refine/detail/heights.hpp"
 #include "mansard/refine/refine.hpp"
 
@@ -47,14 +48,14 @@ struct Site {
 
 /// Looks down on the polygon every `grid` metres, at the centres of cells aligned to whole multiples of it; coarser
 /// over very large parts. Of a scan that consists of points, those over the polygon are the samples.
-[[nodiscard]] auto look(const geometry::Polygon& polygon, double base, const rays::Scene& mesh, const Options& options)
-    -> Site;
+[[nodiscard]] auto look(const geometry::Polygon& polygon, double base, const rays::Scene& mesh, const Options& options,
+                        const Evidence* points = nullptr) -> Site;
 /// A piece of a site that was looked at already.
 [[nodiscard]] auto crop(const Site& site, const geometry::Polygon& piece, const Options& options) -> Site;
 
 /// Both pieces of ground as one, the polygon of both given: what was sampled over them, and what is between them.
 [[nodiscard]] auto merged(const Site& a, const Site& b, const geometry::Polygon& both, const rays::Scene& mesh,
-                          const Options& options) -> Site;
+                          const Options& options, const Evidence* points = nullptr) -> Site;
 
 /// The same without what is seen at some places.
 [[nodiscard]] auto without(const Site& site, const std::function<bool(geometry::Point2)>& taken, const Options& options)

@@ -10,6 +10,7 @@
 #include "mansard/refine/detail/dormers.hpp"
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
+#include "mansard/refine/detail/place.hpp"
 #include "mansard/refine/detail/refit.hpp"
 #include "mansard/refine/detail/sharpen.hpp"
 #include "mansard/refine/detail/tall.hpp"
@@ -39,7 +40,7 @@ auto is_sound(const base::Result<extrude::Raised>& raised) -> bool {
 }  // namespace
 
 auto Work::look(const geometry::Polygon& polygon, double base) const -> Site {
-  return without_remnants(with_ceilings(detail::look(polygon, base, mesh_, options_)));
+  return without_remnants(with_ceilings(detail::look(polygon, base, mesh_, options_, points_ ? &*points_ : nullptr)));
 }
 
 /// Nothing is seen of what crowns hide but for the ground beside it.
@@ -58,7 +59,7 @@ auto Work::with_ceilings(Site site) const -> Site {
 }
 
 auto Work::both_of(const Piece& a, const Piece& b, const geometry::Polygon& both) const -> Site {
-  return with_ceilings(merged(a.site, b.site, both, mesh_, options_));
+  return with_ceilings(merged(a.site, b.site, both, mesh_, options_, points_ ? &*points_ : nullptr));
 }
 
 /// `worth`: dearer roofs are of no interest.
@@ -109,7 +110,15 @@ auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> 
   const double least_gain = options_.part_price;
   const Piece one{
       std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, both.roof, std::nullopt, {}};
-  return cut_within(one, least_gain, cost_of(a, b) - least_gain);
+  const double worth = cost_of(a, b) - least_gain;
+  std::vector<Proposal> seams;
+  for (const Piece* piece : {&a, &b}) {
+    auto moved = placed(both.polygon, piece->site.polygon, one.site.measured, options_);
+    if (moved.outer != piece->site.polygon.outer)
+      seams.push_back({std::move(moved), misfit_between(a, b), 0, "its wall where the scan has it", false});
+  }
+  auto pieces = cheapest(one, seams, worth);
+  return pieces.empty() ? cut_within(one, least_gain, worth) : pieces;
 }
 
 /// Of the proposed cuts the one whose pieces cost least, if that is less than they are worth.

@@ -44,7 +44,9 @@ class Work {
  public:
   Work(const rays::Scene& mesh, const rays::Scene* above, const Options& options, const extrude::Options& raising,
        const base::Run& run)
-      : mesh_(mesh), above_(above), options_(options), raising_(raising), run_(run) {}
+      : mesh_(mesh), above_(above), options_(options), raising_(raising), run_(run) {
+    if (options.samples.point_area > 0) points_.emplace(mesh, options);
+  }
 
   [[nodiscard]] auto look(const geometry::Polygon& polygon, double base) const -> Site;
 
@@ -104,6 +106,7 @@ class Work {
       -> std::vector<Piece>;
 
   const rays::Scene& mesh_;
+  std::optional<Evidence> points_;  ///< of a scan that consists of points
   const rays::Scene* above_;  ///< with the crowns of trees; null where there are none
   const Options& options_;
   const extrude::Options& raising_;
