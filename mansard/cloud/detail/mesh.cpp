@@ -184,8 +184,9 @@ auto mesh_of(const Grid& grid, const Options& options) -> geometry::Mesh {
   return out;
 }
 
-/// A point is on the surface that its own cell or one beside it has at its height: at a step a cell has points of both
-/// sides. Others are on walls, on what was left out above the surface, or below it.
+/// Where classes say what is building and what is ground, all of these. Elsewhere a point is on the surface that its own
+/// cell or one beside it has at its height: at a step a cell has points of both sides. Others are on walls, on what was
+/// left out above the surface, or below it.
 auto points_on_surface(const Grid& grid, const Options& options) -> std::vector<Point3> {
   const double near = std::min(options.step, options.step_slope * grid.side());
   std::vector<Point3> out;
@@ -194,7 +195,7 @@ auto points_on_surface(const Grid& grid, const Options& options) -> std::vector<
       for (const auto& p : grid.points_of(column, row)) {
         const Point3 at{static_cast<double>(p.x) / per_metre, static_cast<double>(p.y) / per_metre,
                         static_cast<double>(p.z) / per_metre};
-        bool on = false;
+        bool on = grid.buildings() == Buildings::by_class;
         for (std::int64_t dy = -1; dy <= 1 && !on; ++dy)
           for (std::int64_t dx = -1; dx <= 1 && !on; ++dx) {
             const auto& height = grid.at(column + dx, row + dy);
