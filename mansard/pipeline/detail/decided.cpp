@@ -1,6 +1,7 @@
 #include "mansard/pipeline/detail/decided.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mansard/refine/law.hpp"
 #include "mansard/sweep/law.hpp"
@@ -39,7 +40,9 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.fracture.snap = snap_of(o.fracture, scan);
   // As near to a boundary, a sample may be of either side of the wall there. Without noise a mesh's own edges are those
   // of the surface, however large its triangles are.
-  o.segment.rim = scan.edge() + scan.spacing / 2 * std::min(1.0, scan.noise / o.refine.detail);
+  if (scan.point_area > 0) o.segment.rim = std::sqrt(scan.point_area) / 2;  // it is anywhere between two points
+  else
+    o.segment.rim = scan.edge() + scan.spacing / 2 * std::min(1.0, scan.noise / o.refine.detail);
   // What no part of the mesh shows is as high as a footprint of which it shows nothing.
   o.profile.assumed_height = o.assumed_height;
   o.refine = refining_of(o, scan);

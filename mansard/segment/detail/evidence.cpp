@@ -58,6 +58,14 @@ auto seen_on(const std::vector<double>& sorted, std::vector<double> clear, const
   return {middle, middle};
 }
 
+/// The measured points over a face, of a scan that consists of points.
+auto points_over(const Ring& ring, const rays::Scene& mesh) -> std::vector<geometry::Point3> {
+  auto points = mesh.points_in(geometry::bounds(ring));
+  const geometry::Polygon face{ring, {}};
+  std::erase_if(points, [&](geometry::Point3 p) { return !geometry::contains(face, xy(p)); });
+  return points;
+}
+
 struct MemberBoxes {
   const block::Member* member;
   std::vector<Box2> boxes;  ///< of its polygons
@@ -118,13 +126,20 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
     std::vector<std::size_t> hits(near.size(), 0);
     std::size_t inside = 0;
     std::vector<double> clear;  // off the rim
+    const auto take = [&](Point2 p, double z) {
+      samples.heights.push_back(z);
+      if (options.rim > 0 && geometry::boundary_distance({ring, {}}, p) >= options.rim) clear.push_back(z);
+    };
+    const auto measured = points_over(ring, mesh);
+    const bool by_points = std::ssize(measured) >= static_cast<std::int64_t>(options.minimum_samples);
+    if (by_points)
+      for (const auto p : measured) take(xy(p), p.z);
     for (const Point2 p : points) {
       bool in = false;
       for (std::size_t i = 0; i < near.size(); ++i)
         if (is_in(members[near[i]], p)) ++hits[i], in = true;
-      const auto z = mesh.top(p);
-      if (z) samples.heights.push_back(*z);
-      if (z && options.rim > 0 && geometry::boundary_distance({ring, {}}, p) >= options.rim) clear.push_back(*z);
+      if (!by_points)
+        if (const auto z = mesh.top(p)) take(p, *z);
       if (in) ++inside;
     }
     std::ranges::sort(samples.heights);
