@@ -72,14 +72,11 @@ auto places_over(std::span<const geometry::Polygon> outline, double most) -> std
   return out;
 }
 
-void put_noise(const detail::Cells& cells, std::span<const Point2> places, model::Accuracy& out, double least = 0,
-               bool of_points = false) {
+void put_noise(const detail::Cells& cells, std::span<const Point2> places, model::Accuracy& out, double least = 0) {
   if (places.empty()) return;
   const double ground = cells.ground_of_one(places);
   out.spacing = rounded(std::sqrt(ground));
-  std::optional<detail::Noise> found;
-  if (of_points) found = cells.independent(places, ground);
-  if (!found) found = detail::noise_from(cells.residuals(places, ground, least), ground);
+  const auto found = detail::noise_from(cells.residuals(places, ground, least), ground);
   if (!found) return;
   out.noise = rounded(found->noise);
   out.correlated_area = rounded(found->correlated_area);
@@ -106,7 +103,7 @@ auto measure_noise(const geometry::Mesh& mesh, const rays::Scene& scene, std::sp
   if (!o.noise || !o.correlated_area || !o.spacing) {
     const auto places = places_over(outline, most_places);
     const bool of_points = !mesh.points.empty();
-    put_noise(detail::Cells(of_points ? mesh.points : roof_vertices(mesh)), places, out, 0, of_points);
+    put_noise(detail::Cells(of_points ? mesh.points : roof_vertices(mesh)), places, out);
     if (!of_points && !places.empty() && (out.windows == 0 || out.spacing > coarse)) {
       const double spacing = out.spacing;
       out = {};

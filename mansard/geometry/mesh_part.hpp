@@ -10,8 +10,8 @@
 
 namespace mansard::geometry {
 
-/// These triangles, in their order, with the vertices that they use, in the mesh's order; without points. Cost: O(n log n) of the
-/// triangles asked for.
+/// These triangles, in their order, with the vertices that they use, in the mesh's order; without points. Cost: O(n log
+/// n) of the triangles asked for.
 [[nodiscard]] auto part_of(const Mesh& mesh, std::span<const std::uint32_t> triangles) -> Mesh;
 
 /// The mesh without these triangles, which are ascending and each there once; vertices and points stay.

@@ -43,7 +43,8 @@ struct Points {
     return false;
   }
 };
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, std::uint32_t>;
+using Tree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, std::uint32_t>;
 
 /// Sums about a place near the points, so that they lose no digits.
 struct Moments {
@@ -98,8 +99,12 @@ auto flat_of(const Moments& m, Point3 about) -> Flat {
 class Growing {
  public:
   Growing(std::span<const Point3> points, const Options& options)
-      : points_(points), options_(options), noise_(std::max(options.noise, least_noise)),
-        farthest_(apart * std::sqrt(options.point_area)), cloud_{points}, tree_(3, cloud_) {}
+      : points_(points),
+        options_(options),
+        noise_(std::max(options.noise, least_noise)),
+        farthest_(apart * std::sqrt(options.point_area)),
+        cloud_{points},
+        tree_(3, cloud_) {}
 
   auto run() -> Found {
     out_.plane_of.assign(points_.size(), Found::none);
@@ -178,7 +183,8 @@ class Growing {
     }
     const double count = static_cast<double>(on.size());
     const bool enough = on.size() >= neighbours / 2 && count * options_.point_area >= options_.least_area;
-    for (const auto i : region) state_[i] = enough ? static_cast<std::uint8_t>(free) : static_cast<std::uint8_t>(refused);
+    for (const auto i : region)
+      state_[i] = enough ? static_cast<std::uint8_t>(free) : static_cast<std::uint8_t>(refused);
     if (!enough) return;
     const bool is_wall = plane.normal.z < upright;
     const auto number = is_wall ? Found::wall : static_cast<std::uint32_t>(out_.planes.size());
@@ -228,7 +234,8 @@ class Growing {
 
 auto Plane::error_at(Point2 place) const -> double {
   const Point2 off = place - xy(middle);
-  return std::sqrt(height_variance + off.x * off.x * slope_xx + 2 * off.x * off.y * slope_xy + off.y * off.y * slope_yy);
+  return std::sqrt(height_variance + off.x * off.x * slope_xx + 2 * off.x * off.y * slope_xy +
+                   off.y * off.y * slope_yy);
 }
 
 auto find(std::span<const Point3> points, const Options& options) -> Found { return Growing(points, options).run(); }

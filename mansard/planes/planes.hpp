@@ -12,9 +12,9 @@ namespace mansard::planes {
 
 /// How accurate the points are (model::Accuracy), and what is of interest.
 struct Options {
-  double noise = 0.03;       ///< m; standard deviation of a point along the normal
-  double point_area = 0.1;   ///< m²; of the ground that a point stands for
-  double least_area = 1.0;   ///< m²; planes with fewer points than stand for this are none
+  double noise = 0.03;      ///< m; standard deviation of a point along the normal
+  double point_area = 0.1;  ///< m²; of the ground that a point stands for
+  double least_area = 1.0;  ///< m²; planes with fewer points than stand for this are none
 };
 
 /// z = middle.z + slope · (xy − middle), fitted to its points by least squares of vertical distances.
@@ -28,9 +28,7 @@ struct Plane {
   /// not correlated.
   double height_variance = 0, slope_xx = 0, slope_xy = 0, slope_yy = 0;
 
-  [[nodiscard]] auto at(geometry::Point2 place) const -> double {
-    return middle.z + dot(slope, place - xy(middle));
-  }
+  [[nodiscard]] auto at(geometry::Point2 place) const -> double { return middle.z + dot(slope, place - xy(middle)); }
   /// m: standard error of the height there.
   [[nodiscard]] auto error_at(geometry::Point2 place) const -> double;
 };

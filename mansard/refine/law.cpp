@@ -73,7 +73,8 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   const double blur = points ? 0 : scan.blur * scan.blur, rough = points ? 0 : scan.edge_noise * scan.edge_noise,
                edge = std::sqrt(blur + rough);
   o.margin = std::min(most_margin, reach * edge);
-  if (points) o.margin = std::min(most_margin, std::hypot(reach * scan.noise, between_points * std::sqrt(scan.point_area)));
+  if (points)
+    o.margin = std::min(most_margin, std::hypot(reach * scan.noise, between_points * std::sqrt(scan.point_area)));
   o.samples.margin_weight =
       blur + rough > 0 ? (weight_of_rounded * blur + weight_of_rough * rough) / (blur + rough) : weight_of_rough;
   o.samples.melt = std::clamp(reach * edge, o.grid / 2, most_melt);  // a sample is of all of its cell

@@ -29,11 +29,6 @@ constexpr double off_centre = 0.25;   // of the radius: the disc is cut off by a
 /// a fifth of all is even. Where five sixths are, it is the quantile of `even_quantile` of those.
 constexpr double quantile = 0.1, even_quantile = 0.12;
 
-/// Of the variance, from a disc of twelve samples to one five times as large. Of independent noise the ratio of both is
-/// distributed as F with about 57 and 9 degrees of freedom, whose quartile is 0.8 and upper quartile 1.5; of noise that
-/// is correlated over the larger disc it is 5 and more.
-constexpr double most_growth = 1.5;
-
 constexpr double pi = std::numbers::pi;
 
 /// By quadrature over the disc: the trace of the covariance of noise exp(−d² / 2 ℓ²) without its projection on 1, x and
@@ -144,34 +139,6 @@ auto Cells::disc_at(Point2 at, double radius, std::size_t every) const -> std::o
   const Point2 slope = equations.slopes();
   const double rest = zz - sums.z * sums.z / sums.count - slope.x * equations.xz - slope.y * equations.yz;
   return Disc{std::max(0.0, rest / sums.count) / (1 + dot(slope, slope)), sums.count};
-}
-
-auto Cells::independent(std::span<const Point2> places, double ground) const -> std::optional<Noise> {
-  const double radius = std::sqrt(full * ground / pi) * 1.05, larger = growth * growth * radius;
-  struct Both {
-    double grows = 0, squared = 0;
-  };
-  std::vector<Both> all;
-  for (const Point2 at : places) {
-    const auto small = disc_at(at, radius, 1), large = disc_at(at, larger, 1);
-    if (!small || !large) continue;
-    // Without the three numbers of the plane that the noise itself has chosen.
-    const double a = small->squared * small->count / (small->count - 3),
-                 b = large->squared * large->count / (large->count - 3);
-    all.push_back({a > 0 ? b / a : 1, b});
-  }
-  if (all.size() < least_discs || static_cast<double>(all.size()) < least_share * static_cast<double>(places.size()))
-    return std::nullopt;
-  // Noise that is correlated grows from disc to disc everywhere; where a disc holds more than one roof it grows, too,
-  // but there are always places that are even in both.
-  std::ranges::sort(all, {}, &Both::grows);
-  const std::size_t quarter = all.size() / 4;
-  if (all[quarter].grows > most_growth) return std::nullopt;
-  std::vector<double> squares;
-  for (const auto& one : all)
-    if (one.grows <= most_growth) squares.push_back(one.squared);
-  const std::size_t discs = squares.size();
-  return Noise{std::sqrt(base::median(std::move(squares))), ground, discs};
 }
 
 auto Cells::residuals(std::span<const Point2> places, double ground, double least) const -> std::vector<Residual> {

@@ -36,10 +36,6 @@ class Cells {
   /// full.
   [[nodiscard]] auto residuals(std::span<const geometry::Point2> places, double ground_of_one, double least = 0) const
       -> std::vector<Residual>;
-  /// The noise where it is independent from point to point: where many places are as even over a disc with five dozen
-  /// points as over one with one dozen. None where it is correlated, or too few places are even.
-  [[nodiscard]] auto independent(std::span<const geometry::Point2> places, double ground_of_one) const
-      -> std::optional<Noise>;
 
  private:
   /// Of the points within a radius, every so many: the mean squared distance from the plane through them.

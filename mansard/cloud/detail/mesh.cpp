@@ -184,9 +184,9 @@ auto mesh_of(const Grid& grid, const Options& options) -> geometry::Mesh {
   return out;
 }
 
-/// Where classes say what is building and what is ground, all of these. Elsewhere a point is on the surface that its own
-/// cell or one beside it has at its height: at a step a cell has points of both sides. Others are on walls, on what was
-/// left out above the surface, or below it.
+/// Where classes say what is building and what is ground, all of these. Elsewhere a point is on the surface that its
+/// own cell or one beside it has at its height: at a step a cell has points of both sides. Others are on walls, on what
+/// was left out above the surface, or below it.
 auto points_on_surface(const Grid& grid, const Options& options) -> std::vector<Point3> {
   const double near = std::min(options.step, options.step_slope * grid.side());
   std::vector<Point3> out;

@@ -9,7 +9,8 @@ namespace mansard::formats {
 
 /// Classes are kept where there is one mesh only. The number of vertices must stay below `no_vertex`.
 inline void append(RawMesh& all, RawMesh more) {
-  if (all.vertices.empty() && all.triangles.empty() && all.points.empty() && all.vertices.capacity() < more.vertices.size()) {
+  if (all.vertices.empty() && all.triangles.empty() && all.points.empty() &&
+      all.vertices.capacity() < more.vertices.size()) {
     more.short_faces += all.short_faces;
     all = std::move(more);
     return;

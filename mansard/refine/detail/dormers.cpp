@@ -305,7 +305,7 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
     const auto cell = site.cells[i];
     const double roof = judged.view.z_of(site, i);
     if (std::isnan(roof) || judged.view.face_of(site, i) != slope.face) continue;
-    if (site.weight[i] < 1) continue;                 // a melted wall
+    if (site.weight[i] < 1) continue;             // a melted wall
     const bool other = site.z[i] - roof > above;  // of another dormer
     if (other && !std::ranges::binary_search(own, cell)) continue;
     const Point2 p = site.places[i];
@@ -316,7 +316,7 @@ auto best_box(const std::vector<std::uint32_t>& island, const Slope& slope, cons
   constexpr double walls_move = 0.5;  // m: two samples
   const double all = error_of(samples, slope, nullptr, 0);
   if (all * site.sample_area < o.price) return std::nullopt;  // no box saves more than there is
-  start.front -= site.measured.spacing;                     // a scan's front leans back
+  start.front -= site.measured.spacing;                       // a scan's front leans back
   start.eaves = base::percentile(std::move(heights), 0.8);
   start.eaves = std::max(start.eaves, slope.at(start.front) + o.min_rise);
   // Scans of the same grid are smoothed by unlike lengths.

@@ -45,7 +45,7 @@ Evidence::Evidence(const rays::Scene& mesh, const Options& options) {
     plane_of_[at] = found.plane_of[i];
   }
   planes_ = std::move(found.planes);
-  leave_out_walls(found, spacing);
+  leave_out_walls(spacing);
 }
 
 template <class See>
@@ -62,7 +62,7 @@ void Evidence::each_near(Point2 place, See see) const {
 }
 
 /// Those on steep planes, and those on none with a point above them on the way of a wall.
-void Evidence::leave_out_walls(const planes::Found& /*found*/, double spacing) {
+void Evidence::leave_out_walls(double spacing) {
   std::vector<char> out(points_.size(), 0);
   for (std::uint32_t i = 0; i < points_.size(); ++i) {
     if (plane_of_[i] == planes::Found::wall) out[i] = 1;

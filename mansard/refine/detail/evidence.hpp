@@ -24,14 +24,14 @@ class Evidence {
   [[nodiscard]] auto height_at(geometry::Point2 place) const -> std::optional<double>;
 
  private:
-  void leave_out_walls(const planes::Found& found, double spacing);
+  void leave_out_walls(double spacing);
   template <class See>
   void each_near(geometry::Point2 place, See see) const;
 
   double reach_ = 0;  // m: the side of a bucket; points are looked for in those around a place
   geometry::Point2 origin_;
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<std::uint32_t> first_;  // per bucket
+  std::vector<std::uint32_t> first_;      // per bucket
   std::vector<geometry::Point3> points_;  // by bucket
   std::vector<std::uint32_t> plane_of_;
   std::vector<planes::Plane> planes_;

@@ -52,7 +52,8 @@ auto Judge::misfit_of(const View& view, double cap, double most) const -> double
     double sum = 0;
     for (std::size_t i = 0; i < site_.z.size(); ++i) {
       const double roof = view.z_at[i];  // NaN past the solid, which falls to its base there
-      sum += site_.weight[i] * stray_loss((roof == roof ? std::min(roof, cap) : 0) - site_.z[i], options_.samples.stray);
+      sum +=
+          site_.weight[i] * stray_loss((roof == roof ? std::min(roof, cap) : 0) - site_.z[i], options_.samples.stray);
     }
     sum *= site_.sample_area;
     for (const auto& [cell, ceiling] : site_.ceilings)

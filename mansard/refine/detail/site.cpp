@@ -97,8 +97,7 @@ auto unblurred_of(const Polygon& polygon, const Heights& grid, const Kernel& ker
 class Inside {
  public:
   Inside(const Polygon& polygon, const Heights& grid) : polygon_(polygon), grid_(grid), inside_(grid.z.size(), 0) {
-    each_inside(polygon, grid,
-                [&](std::size_t column, std::size_t row) { inside_[row * grid.columns + column] = 1; });
+    each_inside(polygon, grid, [&](std::size_t column, std::size_t row) { inside_[row * grid.columns + column] = 1; });
   }
   /// The cell of a place inside.
   [[nodiscard]] auto operator()(Point2 place) const -> std::optional<std::uint32_t> {
@@ -136,9 +135,8 @@ void add_points(Site& site, std::span<const Measured> points, const Options& opt
     site.cells.push_back(*cell);
     site.places.push_back(place);
     site.z.push_back(z);
-    site.weight.push_back(geometry::boundary_distance(site.polygon, place) < options.margin
-                              ? options.samples.margin_weight
-                              : 1);
+    site.weight.push_back(
+        geometry::boundary_distance(site.polygon, place) < options.margin ? options.samples.margin_weight : 1);
   }
   site.sorted = site.z;
   std::ranges::sort(site.sorted);
@@ -262,8 +260,7 @@ namespace {
 auto points_of(const Site& site) -> std::vector<Measured> {
   std::vector<Measured> out;
   out.reserve(site.z.size());
-  for (std::size_t i = 0; i < site.z.size(); ++i)
-    out.push_back({site.places[i], site.z[i]});
+  for (std::size_t i = 0; i < site.z.size(); ++i) out.push_back({site.places[i], site.z[i]});
   return out;
 }
 

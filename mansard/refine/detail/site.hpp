@@ -17,18 +17,18 @@ namespace mansard::refine::detail {
 
 struct Site {
   geometry::Polygon polygon;
-  double base = 0;                        ///< z, metres
-  Heights measured;  ///< of the scan's surface; NaN where there is none, or outside the polygon
+  double base = 0;       ///< z, metres
+  Heights measured;      ///< of the scan's surface; NaN where there is none, or outside the polygon
   double cell_area = 0;  ///< m²
 
   // The samples: what the scan measured. Of a surface, its height at the centres of the cells, in their order; of
   // points, each of them.
-  std::vector<std::uint32_t> cells;      ///< the cell that each lies in
+  std::vector<std::uint32_t> cells;  ///< the cell that each lies in
   std::vector<geometry::Point2> places;
-  std::vector<double> z;                 ///< m above the base
-  std::vector<double> weight;            ///< 1; less along the outline
-  std::vector<double> sorted;            ///< the heights
-  double sample_area = 0;                ///< m²; that each stands for
+  std::vector<double> z;       ///< m above the base
+  std::vector<double> weight;  ///< 1; less along the outline
+  std::vector<double> sorted;  ///< the heights
+  double sample_area = 0;      ///< m²; that each stands for
   bool of_points = false;
 
   Kernel kernel;  ///< by which the scan smooths, on this grid

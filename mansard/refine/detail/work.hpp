@@ -107,7 +107,7 @@ class Work {
 
   const rays::Scene& mesh_;
   std::optional<Evidence> points_;  ///< of a scan that consists of points
-  const rays::Scene* above_;  ///< with the crowns of trees; null where there are none
+  const rays::Scene* above_;        ///< with the crowns of trees; null where there are none
   const Options& options_;
   const extrude::Options& raising_;
   const base::Run& run_;
