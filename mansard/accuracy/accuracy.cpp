@@ -95,6 +95,24 @@ auto sampled(const rays::Scene& scene, std::span<const Point2> places) -> std::v
 
 void put(const std::optional<double>& given, double& to) { to = given.value_or(to); }
 
+/// What was measured of the surface of a cloud, said of its points: a vertex is the mean of some, and where the noise
+/// of vertices is independent, so is that of points. Where it is correlated over so many points that the plane through
+/// a point's neighbours shows the noise rather than the roof, a point is no measurement of its own.
+auto as_points(model::Accuracy out, const std::vector<Point3>& points, std::span<const geometry::Polygon> outline)
+    -> model::Accuracy {
+  constexpr double independent = 1.5, most_points = 50;  // of the ground of a vertex; four dozen neighbours
+  const auto places = places_over(outline, most_places);
+  if (places.empty() || out.windows == 0) return out;
+  const double ground = detail::Cells(points).ground_of_one(places);
+  if (out.correlated_area <= independent * out.spacing * out.spacing) {
+    out.noise = rounded(out.noise * std::sqrt(out.correlated_area / ground));
+    out.correlated_area = rounded(ground);
+  }
+  out.spacing = rounded(std::sqrt(ground));
+  if (out.correlated_area < most_points * ground) out.point_area = ground;
+  return out;
+}
+
 }  // namespace
 
 auto measure_noise(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<const geometry::Polygon> outline,
@@ -103,7 +121,7 @@ auto measure_noise(const geometry::Mesh& mesh, const rays::Scene& scene, std::sp
   if (!o.noise || !o.correlated_area || !o.spacing) {
     const auto places = places_over(outline, most_places);
     const bool of_points = !mesh.points.empty();
-    put_noise(detail::Cells(of_points ? mesh.points : roof_vertices(mesh)), places, out);
+    put_noise(detail::Cells(roof_vertices(mesh)), places, out);
     if (!of_points && !places.empty() && (out.windows == 0 || out.spacing > coarse)) {
       const double spacing = out.spacing;
       out = {};
@@ -114,10 +132,11 @@ auto measure_noise(const geometry::Mesh& mesh, const rays::Scene& scene, std::sp
       if (out.windows > 0) out.correlated_area = std::max(out.correlated_area, rounded(spacing * spacing));
     }
   }
+  if (!mesh.points.empty()) out = as_points(out, mesh.points, outline);
   put(o.noise, out.noise);
   put(o.correlated_area, out.correlated_area);
   put(o.spacing, out.spacing);
-  if (!mesh.points.empty()) out.point_area = rounded(out.spacing * out.spacing);
+  if (out.point_area > 0) out.point_area = rounded(out.spacing * out.spacing);
   return out;
 }
 

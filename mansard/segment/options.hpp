@@ -69,6 +69,7 @@ struct Options {
   double samples_per_area = 2.0;  ///< height samples per m² of a face
   /// Minimum number of height samples per face. Chosen by hand; not measured.
   std::size_t minimum_samples = 9;
+  bool by_points = false;  ///< points are the samples of a face, where it has enough; no option: of the scan
   double rim = 0;  ///< m along a face's boundary where samples may be of either side; no option: of the scan's edges
   /// Share of a face within the footprints above which the face is inside even without mesh, and is not peeled off.
   /// Chosen by hand; not measured.

@@ -190,6 +190,21 @@ TEST(Partition, keeps_exactly_the_triangles_within_the_padding) {
   }
 }
 
+TEST(Partition, keeps_exactly_the_points_within_the_padding) {
+  base::Random random(5);
+  Mesh mesh = field(-20, -20, 50, 50, 10, level(0));
+  for (int i = 0; i < 3000; ++i) mesh.points.push_back({random.uniform(-20, 50), random.uniform(-20, 50), 3});
+  const auto shape = box(0, 0, 30, 20);
+  const auto blocks = partition(scene_of(mesh, {{shape}}), {});
+  std::vector<Point3> wanted;
+  for (const Point3 p : mesh.points)
+    if (geometry::contains(shape, xy(p)) || geometry::boundary_distance(shape, xy(p)) <= Options().padding)
+      wanted.push_back({model::rounded(p.x), model::rounded(p.y), model::rounded(p.z)});
+  std::ranges::sort(wanted);
+  EXPECT_EQ(blocks[0].mesh.points, wanted);
+  EXPECT_GT(wanted.size(), 300U);
+}
+
 TEST(Partition, does_not_depend_on_the_order_of_the_features) {
   base::Random random(9);
   std::vector<std::vector<Polygon>> shapes;
@@ -293,6 +308,8 @@ TEST(Partition, names_a_block_after_the_first_id_whatever_else_is_there) {
 TEST(Partition, gives_the_same_block_in_its_own_frame_anywhere_and_in_any_order) {
   base::Random random(11);
   Mesh mesh = field(-20, -20, 60, 40, 1.3, [&](Point2 p) { return std::sin(p.x) + p.y / 7; });
+  for (int i = 0; i < 500; ++i)
+    mesh.points.push_back({random.uniform(-20, 60), random.uniform(-20, 40), random.uniform(0, 9)});
   std::vector<std::vector<Polygon>> shapes{{box(0.1, 0.2, 10.3, 9.7)}, {box(10.3, 0.2, 19, 11)}, {box(30, 3, 34, 9)}};
   const auto first = partition(scene_of(mesh, shapes), {});
   ASSERT_EQ(first.size(), 2U);
@@ -300,15 +317,19 @@ TEST(Partition, gives_the_same_block_in_its_own_frame_anywhere_and_in_any_order)
     Mesh moved = mesh;
     auto other = shapes;
     for (Point3& v : moved.vertices) v = v + by;
+    for (Point3& p : moved.points) p = p + by;
     for (auto& shape : other)
       for (Point2& p : shape[0].outer) p = p + xy(by);
     std::ranges::reverse(moved.triangles);
+    std::ranges::reverse(moved.points);
     std::ranges::reverse(other);
     const auto again = partition(scene_of(moved, other), {});
     ASSERT_EQ(again.size(), 2U);
     const auto a = in_own_frame(first[0]), b = in_own_frame(again[1]);
     EXPECT_EQ(a.block.mesh.vertices, b.block.mesh.vertices);
     EXPECT_EQ(a.block.mesh.triangles, b.block.mesh.triangles);
+    EXPECT_EQ(a.block.mesh.points, b.block.mesh.points);
+    EXPECT_GT(a.block.mesh.points.size(), 30U);
     EXPECT_EQ(a.block.outline, b.block.outline);
     EXPECT_EQ(a.block.ground, b.block.ground);
     ASSERT_EQ(b.features.size(), 2U);

@@ -63,6 +63,7 @@ auto surface_of(const std::vector<Sample>& samples, double cell, const cloud::Op
     EXPECT_TRUE(made);
     const auto first = static_cast<std::uint32_t>(out.mesh.vertices.size());
     out.mesh.vertices.insert(out.mesh.vertices.end(), made->mesh.vertices.begin(), made->mesh.vertices.end());
+    out.mesh.points.insert(out.mesh.points.end(), made->mesh.points.begin(), made->mesh.points.end());
     for (auto t : made->mesh.triangles) out.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     out.counts.include(made->counts);
     grounds.push_back(std::move(made->ground));
@@ -136,6 +137,42 @@ TEST(Density, of_several_cells_is_their_mean_by_area) {
   EXPECT_EQ(density.over(square(8, -4, 10, -2), {}), 6);
   EXPECT_EQ(density.over(square(8.5, -4, 10, -3), {}), (0.5 * 4 + 8) / 1.5);
   EXPECT_EQ(density.over(square(6, -4, 10, -3), {}), 3) << "nothing west of the tile";
+}
+
+TEST(Surface, has_every_point_of_the_classes_once_whatever_the_tiles) {
+  auto samples = scatter(0, 0, 150, 60, 4, 3, house);  // more than two tiles of 64 m
+  const auto all = samples.size();
+  samples.push_back({{25, 24, 30}, 7, 1, 1});      // noise
+  samples.push_back({{26, 24, 12}, 5, 1, 1});      // a tree
+  samples.push_back({{27, 24, 12}, other, 1, 1});  // unclassified, where classes say what is building
+  for (const double cell : {0.25, 0.5, 1.0}) {
+    auto points = surface_of(samples, cell).mesh.points;
+    ASSERT_EQ(points.size(), all) << cell;
+    std::ranges::sort(points);
+    std::vector<Point3> expected;
+    for (std::size_t i = 0; i < all; ++i) expected.push_back(samples[i].position);
+    std::ranges::sort(expected);
+    for (std::size_t i = 0; i < all; ++i) EXPECT_LT(length(points[i] - expected[i]), 0.0005) << i;
+  }
+}
+
+TEST(Surface, by_shape_has_the_points_on_it_of_both_sides_of_a_step_and_not_those_above_or_on_walls) {
+  // Without classes: a house of 6 m in the open, facade points below its eaves, a wire above its roof.
+  auto samples = scatter(0, 0, 40, 40, 16, 5, [](double x, double y) {
+    return std::pair<double, std::uint8_t>(x > 15 && x < 25 && y > 15 && y < 25 ? 6.0 : 0.0, 0);
+  });
+  const auto both = samples.size();
+  for (double z = 2; z < 4.5; z += 0.1) samples.push_back({{15, 20, z}, 0, 1, 1});
+  for (double x = 17; x < 23; x += 0.5) samples.push_back({{x, 20, 11}, 0, 1, 1});
+  const auto points = surface_of(samples, 0.5).mesh.points;
+  EXPECT_GT(points.size(), both * 99 / 100);
+  EXPECT_TRUE(std::ranges::none_of(points, [](Point3 p) { return p.z > 1.5 && p.z < 4.5; })) << "on the wall";
+  EXPECT_TRUE(std::ranges::none_of(points, [](Point3 p) { return p.z > 7; })) << "the wire";
+  const auto near = [&](double z) {
+    return std::ranges::count_if(points, [&](Point3 p) { return std::abs(p.x - 15) < 0.3 && std::abs(p.z - z) < 0.1; });
+  };
+  EXPECT_GT(near(6), 20);
+  EXPECT_GT(near(0), 50);
 }
 
 TEST(Surface, of_a_gabled_house_has_its_heights_without_bias) {
@@ -330,6 +367,17 @@ TEST(Clouds, in_cells_on_disk_are_the_same_surface) {
   ASSERT_TRUE(scene);
   EXPECT_EQ(city->scene.mesh_counts.triangles, scene->mesh_counts.triangles);
   EXPECT_EQ(city->scene.frame.origin, scene->frame.origin);
+  constexpr double far = 1e6;
+  std::vector<Point3> on_disk, in_memory = scene->mesh.points;
+  for (const auto& cell : city->cells->cells_in({{-far, -far}, {far, far}})) {
+    const auto own = city->cells->load_own(cell);
+    ASSERT_TRUE(own);
+    on_disk.insert(on_disk.end(), own->points.begin(), own->points.end());
+  }
+  std::ranges::sort(on_disk);
+  std::ranges::sort(in_memory);
+  EXPECT_EQ(on_disk, in_memory);
+  EXPECT_GT(in_memory.size(), 10'000U);
 }
 
 TEST(Clouds, in_degrees_or_feet_become_metres) {

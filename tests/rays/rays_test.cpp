@@ -36,6 +36,21 @@ TEST(Scene, sees_the_topmost_surface) {
   EXPECT_GE(scene.seen_from_above({502, -298})->triangle, 2U);
 }
 
+TEST(Scene, has_the_points_in_a_box_but_not_where_a_triangle_hides_them) {
+  auto mesh = two_storeys({0, 0, 0});
+  EXPECT_FALSE(Scene(mesh).has_points());
+  EXPECT_TRUE(Scene(mesh).points_in({{-1, -1}, {20, 20}}).empty());
+  mesh.points = {{8, 8, 3.1}, {1, 1, 7.2}, {5, 9, 2.9}, {8, 2, 3}, {12, 12, 0}};
+  const Scene scene(mesh), hiding(mesh, {2, 3});  // the upper square
+  EXPECT_TRUE(scene.has_points());
+  using Points = std::vector<geometry::Point3>;
+  EXPECT_EQ(scene.points_in({{-1, -1}, {20, 20}}),
+            (Points{{1, 1, 7.2}, {5, 9, 2.9}, {8, 2, 3}, {8, 8, 3.1}, {12, 12, 0}}));
+  EXPECT_EQ(scene.points_in({{5, 2}, {8, 8}}), (Points{{8, 2, 3}, {8, 8, 3.1}})) << "its border counts";
+  EXPECT_TRUE(scene.points_in({{6, 6}, {7, 7}}).empty());
+  EXPECT_EQ(hiding.points_in({{-1, -1}, {20, 20}}), (Points{{5, 9, 2.9}, {8, 2, 3}, {8, 8, 3.1}, {12, 12, 0}}));
+}
+
 TEST(Scene, sees_nothing_from_above_where_a_triangle_is_left_out) {
   const geometry::Point3 shift{500, -300, 20};
   const auto mesh = two_storeys(shift);

@@ -40,7 +40,8 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.fracture.snap = snap_of(o.fracture, scan);
   // As near to a boundary, a sample may be of either side of the wall there. Without noise a mesh's own edges are those
   // of the surface, however large its triangles are.
-  if (scan.point_area > 0) o.segment.rim = std::sqrt(scan.point_area) / 2;  // it is anywhere between two points
+  o.segment.by_points = scan.point_area > 0;
+  if (o.segment.by_points) o.segment.rim = scan.spacing / 2;  // a wall is anywhere between two points
   else o.segment.rim = scan.edge() + scan.spacing / 2 * std::min(1.0, scan.noise / o.refine.detail);
   // What no part of the mesh shows is as high as a footprint of which it shows nothing.
   o.profile.assumed_height = o.assumed_height;

@@ -54,7 +54,8 @@ auto carried(const model::Solid& solid, const View& view, const Site& site, cons
 auto bare_faces(const model::Solid& solid, const View& view, const Site& site, const Options& options)
     -> std::vector<std::uint32_t> {
   const auto& o = options.bare;
-  const double steepest = geometry::cosine(o.steep), least = static_cast<double>(o.cells) * options.grid;
+  const double between = std::max(options.grid, site.of_points ? std::sqrt(site.sample_area) : 0);  // m
+  const double steepest = geometry::cosine(o.steep), least = static_cast<double>(o.cells) * between;
   std::vector<std::uint32_t> wide, narrow;
   std::vector<bool> steep(solid.faces.size(), false);
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {

@@ -130,7 +130,7 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
       samples.heights.push_back(z);
       if (options.rim > 0 && geometry::boundary_distance({ring, {}}, p) >= options.rim) clear.push_back(z);
     };
-    const auto measured = points_over(ring, mesh);
+    const auto measured = options.by_points ? points_over(ring, mesh) : std::vector<geometry::Point3>();
     const bool by_points = std::ssize(measured) >= static_cast<std::int64_t>(options.minimum_samples);
     if (by_points)
       for (const auto p : measured) take(xy(p), p.z);
