@@ -208,6 +208,7 @@ auto combined(std::span<const model::Accuracy> all) -> model::Accuracy {
   put(middle([](const auto& one) { return one.noise; }, windows), out.noise);
   put(middle([](const auto& one) { return one.correlated_area; }, windows), out.correlated_area);
   put(middle([](const auto& one) { return one.spacing; }, windows), out.spacing);
+  put(middle([](const auto& one) { return one.point_area; }, windows), out.point_area);
   put(middle([](const auto& one) { return one.blur; }, transects), out.blur);
   put(middle([](const auto& one) { return one.edge_noise; }, transects), out.edge_noise);
   put(middle([](const auto& one) { return one.walls; }, transects), out.walls);

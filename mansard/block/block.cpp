@@ -294,12 +294,6 @@ auto as_mesh(const std::vector<geometry::Box2>& boxes) -> geometry::Mesh {
   return mesh;
 }
 
-auto as_mesh(const std::vector<Point3>& points) -> geometry::Mesh {
-  geometry::Mesh mesh{points, {}, {}};
-  for (std::uint32_t i = 0; i < points.size(); ++i) mesh.triangles.push_back({i, i, i});
-  return mesh;
-}
-
 /// Those of the points that are within reach of a block, moved by −origin and rounded, in order.
 auto points_of(const std::vector<Point3>& points, const std::vector<std::uint32_t>& candidates, Point3 origin,
                const detail::Nearness& near) -> std::vector<Point3> {
@@ -435,7 +429,7 @@ Partition::Partition(const model::Scene& scene, const Options& options, const ba
     reaches.push_back(box.grown(options.ground_reach));
   }
   near_by = geometry::triangles_near(scene.mesh, regions);
-  if (!scene.mesh.points.empty()) points_near = geometry::triangles_near(as_mesh(scene.mesh.points), regions);
+  if (!scene.mesh.points.empty()) points_near = geometry::points_near(scene.mesh.points, regions);
   if (run.cancelled()) return;
   prepared_->shapes_near = geometry::triangles_near(as_mesh(shapes.boxes), regions);
   // Only where nothing is nearer does the mesh farther away matter.

@@ -147,6 +147,7 @@ auto table() -> std::vector<Driver> {
       {"collada", "COLLADA", {".dae"}, mesh, {}, "COLLADA.", {{}, true, assimp}},
       {"las", "LAS", {".las"}, points, {}, "LAS 1.0 to 1.4: a point cloud.", {}},
       {"laz", "LAZ", {".laz"}, points, {}, "Compressed LAS: a file, COPC, or EPT, a folder with an ept.json.", {}},
+      {"xyz", "XYZ", {".xyz", ".pts"}, points, {}, "Text, a point a line: columns by a header, or x y z.", {}},
       {"geotiff", "GeoTIFF", {".tif", ".tiff"}, raster, {}, "A raster of heights.", {}},
       {"vrt", "VRT", {".vrt"}, raster, {}, "GDAL's virtual raster: several rasters as one.", {}},
       {"asc", "ASCII grid", {".asc"}, raster, {}, "Esri's ASCII grid of heights.", {}},

@@ -1,4 +1,4 @@
-// Point clouds of any format, piece by piece: LAS, LAZ, COPC, EPT, and PLY without faces.
+// Point clouds of any format, piece by piece: LAS, LAZ, COPC, EPT, PLY without faces, and text.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct CloudPoint {
 };
 
 struct PointInfo {
-  std::string format;     ///< "LAS 1.2", "LAZ 1.4", "COPC 1.0", "EPT 1.0.0", "PLY"
+  std::string format;     ///< "LAS 1.2", "LAZ 1.4", "COPC 1.0", "EPT 1.0.0", "PLY", "text"
   int point_format = -1;  ///< of LAS; -1 for others
   std::uint64_t points = 0;
   /// What the header says, in file coordinates: a hint. None where that is not finite or empty.
@@ -61,8 +61,8 @@ class PointCloud {
   [[nodiscard]] virtual auto inputs() const -> base::Result<std::vector<model::InputFile>> = 0;
 };
 
-/// Whether the name is that of a cloud: .las, .laz, ept.json, or .ply with vertices and no face (which is looked up in
-/// its header).
+/// Whether the name is that of a cloud: .las, .laz, .xyz, .pts, ept.json; .ply with vertices and no face, .csv and .txt
+/// that begin as a cloud (which are looked into).
 [[nodiscard]] auto is_point_cloud(const std::filesystem::path& path) -> bool;
 
 /// Reads headers and indexes, no points. `path` is a file, or the folder of an EPT set. Memory does not grow with what

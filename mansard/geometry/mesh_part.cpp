@@ -39,7 +39,12 @@ auto without(const Mesh& mesh, std::span<const std::uint32_t> triangles) -> Mesh
   return out;
 }
 
-auto triangles_near(const Mesh& mesh, const std::vector<Box2>& boxes) -> std::vector<std::vector<std::uint32_t>> {
+namespace {
+
+/// For each box, those of so many things whose boxes overlap or touch it.
+template <class BoxOf>
+auto near_boxes(std::size_t things, BoxOf box_of, const std::vector<Box2>& boxes)
+    -> std::vector<std::vector<std::uint32_t>> {
   std::vector<std::vector<std::uint32_t>> out(boxes.size());
   Box2 all;
   double sides = 0;
@@ -51,7 +56,7 @@ auto triangles_near(const Mesh& mesh, const std::vector<Box2>& boxes) -> std::ve
   }
   if (all.empty()) return out;
 
-  // A grid over the boxes with cells about their size; every triangle looks into the cells under its box.
+  // A grid over the boxes with cells about their size; everything looks into the cells under its box.
   const Point2 extent = all.most - all.least;
   const double size = std::max({sides / static_cast<double>(boxes.size()), extent.x / 512, extent.y / 512, 1.0});
   const auto columns = static_cast<std::size_t>(extent.x / size) + 1,
@@ -72,19 +77,18 @@ auto triangles_near(const Mesh& mesh, const std::vector<Box2>& boxes) -> std::ve
       for (std::size_t c = c0; c <= c1; ++c) cells[r * columns + c].push_back(static_cast<std::uint32_t>(i));
   }
 
-  // In pieces of the mesh, each with its own lists, put together in the order of the pieces; some at a time, since all
-  // lists of a city would take as much memory as its mesh.
+  // In pieces, each with its own lists, put together in the order of the pieces; some at a time, since all lists of a
+  // city would take as much memory as its mesh.
   constexpr std::size_t piece = 1 << 14, at_a_time = 32;
-  const std::size_t pieces = (mesh.triangles.size() + piece - 1) / piece;
+  const std::size_t pieces = (things + piece - 1) / piece;
   std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(std::min(pieces, at_a_time));
   for (std::size_t first = 0; first < pieces; first += at_a_time) {
     base::parallel_for(std::min(at_a_time, pieces - first), [&](std::size_t k) {
       std::vector<std::uint32_t> near;
       found[k].clear();
       const std::size_t begin = (first + k) * piece;
-      for (std::size_t t = begin; t < std::min(mesh.triangles.size(), begin + piece); ++t) {
-        Box2 box;
-        for (const auto v : mesh.triangles[t]) box.add(xy(mesh.vertices[v]));
+      for (std::size_t t = begin; t < std::min(things, begin + piece); ++t) {
+        const Box2 box = box_of(t);
         if (!box.overlaps(all)) continue;
         near.clear();
         const auto [c0, c1, r0, r1] = range(box);
@@ -102,6 +106,23 @@ auto triangles_near(const Mesh& mesh, const std::vector<Box2>& boxes) -> std::ve
   }
   for (auto& triangles : out) triangles.shrink_to_fit();
   return out;
+}
+
+}  // namespace
+
+auto triangles_near(const Mesh& mesh, const std::vector<Box2>& boxes) -> std::vector<std::vector<std::uint32_t>> {
+  const auto box_of = [&mesh](std::size_t t) {
+    Box2 box;
+    for (const auto v : mesh.triangles[t]) box.add(xy(mesh.vertices[v]));
+    return box;
+  };
+  return near_boxes(mesh.triangles.size(), box_of, boxes);
+}
+
+auto points_near(std::span<const Point3> points, const std::vector<Box2>& boxes)
+    -> std::vector<std::vector<std::uint32_t>> {
+  const auto box_of = [points](std::size_t i) { return Box2{xy(points[i]), xy(points[i])}; };
+  return near_boxes(points.size(), box_of, boxes);
 }
 
 }  // namespace mansard::geometry

@@ -21,5 +21,8 @@ namespace mansard::geometry {
 /// Nothing is near an empty box. Cost: O(n + k) for k results where boxes are of about one size. Memory: the results.
 [[nodiscard]] auto triangles_near(const Mesh& mesh, const std::vector<Box2>& boxes)
     -> std::vector<std::vector<std::uint32_t>>;
+/// The same of points.
+[[nodiscard]] auto points_near(std::span<const Point3> points, const std::vector<Box2>& boxes)
+    -> std::vector<std::vector<std::uint32_t>>;
 
 }  // namespace mansard::geometry

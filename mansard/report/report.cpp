@@ -69,6 +69,7 @@ auto json_of(const model::Accuracy& a) -> Json {
   return {{"noise_m", a.noise},
           {"correlated_area_m2", a.correlated_area},
           {"spacing_m", a.spacing},
+          {"point_area_m2", a.point_area > 0 ? Json(a.point_area) : Json(nullptr)},
           {"blur_m", a.blur},
           {"edge_noise_m", a.edge_noise},
           {"walls_seen", a.walls},

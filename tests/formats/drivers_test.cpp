@@ -43,7 +43,7 @@ TEST(Drivers, say_what_they_are_for) {
 }
 
 TEST(Drivers, are_listed_in_words) {
-  EXPECT_EQ(titles(&Reads::mesh), "OBJ, GLB, 3D Tiles, STL, PLY, OFF, glTF, OSGB, FBX, COLLADA, LAS, LAZ");
+  EXPECT_EQ(titles(&Reads::mesh), "OBJ, GLB, 3D Tiles, STL, PLY, OFF, glTF, OSGB, FBX, COLLADA, LAS, LAZ, XYZ");
   EXPECT_EQ(extensions_in_words(&Reads::raster), ".tif, .tiff, .vrt, .asc or .img");
   EXPECT_THAT(extensions(&Reads::footprints), testing::Contains(".gpkg"));
 }

@@ -65,6 +65,14 @@ TEST(MeshPart, triangles_near_boxes_are_those_that_a_look_at_each_finds) {
     all += slow.size();
   }
   EXPECT_GT(all, 300U);
+  const auto points = points_near(mesh.vertices, boxes);
+  ASSERT_EQ(points.size(), boxes.size());
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    std::vector<std::uint32_t> slow;
+    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+      if (!boxes[b].empty() && boxes[b].contains(xy(mesh.vertices[v]))) slow.push_back(v);
+    EXPECT_EQ(points[b], slow) << b;
+  }
   EXPECT_TRUE(triangles_near({}, boxes)[1].empty());
   EXPECT_TRUE(triangles_near(mesh, {}).empty());
 }

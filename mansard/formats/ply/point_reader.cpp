@@ -6,6 +6,7 @@
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/hash.hpp"
 #include "mansard/formats/ply/ply_file.hpp"
+#include "mansard/formats/points/in_memory.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -70,32 +71,6 @@ void put(CloudPoint& point, Target target, double value) {
     case Target::blue: point.colour[2] = clamped<std::uint16_t>(value); break;
   }
 }
-
-/// All points in one piece: PLY has no index, and text no records of one length.
-class PlyCloud : public PointCloud {
- public:
-  PlyCloud(std::vector<CloudPoint> points, PointInfo info, model::InputFile input)
-      : points_(std::move(points)), info_(std::move(info)), input_(std::move(input)) {}
-  [[nodiscard]] auto info() const -> const PointInfo& override { return info_; }
-  [[nodiscard]] auto pieces() const -> std::size_t override { return (points_.size() + piece - 1) / piece; }
-  [[nodiscard]] auto points_of(std::size_t i) const -> std::uint64_t override {
-    return std::min(piece, points_.size() - i * piece);
-  }
-  [[nodiscard]] auto box_of(std::size_t) const -> std::optional<geometry::Box3> override { return std::nullopt; }
-  [[nodiscard]] auto read(std::size_t i) const -> base::Result<std::vector<CloudPoint>> override {
-    const auto first = points_.begin() + static_cast<std::ptrdiff_t>(i * piece);
-    return std::vector<CloudPoint>(first, first + static_cast<std::ptrdiff_t>(points_of(i)));
-  }
-  [[nodiscard]] auto inputs() const -> base::Result<std::vector<model::InputFile>> override {
-    return std::vector{input_};
-  }
-
- private:
-  static constexpr std::size_t piece = 65536;
-  std::vector<CloudPoint> points_;
-  PointInfo info_;
-  model::InputFile input_;
-};
 
 template <class Values>
 auto take_points(Values values, const PlyHeader& header, const std::string& name)
@@ -189,14 +164,9 @@ auto open_point_ply(const std::filesystem::path& path) -> base::Result<std::uniq
     return fault;
   }
   info.format = "PLY";
-  info.points = points->size();
-  geometry::Box3 box;
-  for (const auto& point : *points)
-    if (std::isfinite(point.position.x) && std::isfinite(point.position.y) && std::isfinite(point.position.z))
-      box.add(point.position);
-  if (!box.empty()) info.stated_bounds = box;
   model::InputFile input{name, bytes->view().size(), sha256(bytes->view())};
-  return std::unique_ptr<PointCloud>(std::make_unique<PlyCloud>(*std::move(points), std::move(info), std::move(input)));
+  return std::unique_ptr<PointCloud>(
+      std::make_unique<CloudInMemory>(*std::move(points), std::move(info), std::move(input)));
 }
 
 }  // namespace mansard::formats

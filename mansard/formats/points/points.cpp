@@ -11,6 +11,7 @@
 #include "mansard/formats/las/las_file.hpp"
 #include "mansard/formats/mesh/mesh_stream.hpp"
 #include "mansard/formats/ply/point_reader.hpp"
+#include "mansard/formats/xyz/point_reader.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -31,10 +32,17 @@ auto beginning_of(const fs::path& path) -> std::string {
   return range ? std::string(range->view()) : std::string();
 }
 
+/// Text with an extension that is for points alone, and text that may be anything.
+auto is_text_of_points(std::string_view extension) -> bool { return extension == ".xyz" || extension == ".pts"; }
+auto is_text(std::string_view extension) -> bool {
+  return is_text_of_points(extension) || extension == ".csv" || extension == ".txt";
+}
+
 auto open(const fs::path& path) -> base::Result<std::unique_ptr<PointCloud>> {
   const auto extension = extension_of(path);
   if (path.filename() == ept_name) return open_ept(path);
   if (extension == ".ply") return open_point_ply(path);
+  if (is_text(extension)) return open_point_text(path);
   if (extension != ".las" && extension != ".laz" && is_there(path / ept_name)) return open_ept(path / ept_name);
   auto las = LasFile::open(path);
   if (!las) return las.failure();
@@ -46,7 +54,8 @@ auto open(const fs::path& path) -> base::Result<std::unique_ptr<PointCloud>> {
 auto is_point_cloud(const fs::path& path) -> bool {
   if (path.filename() == ept_name) return true;
   const auto extension = extension_of(path);
-  if (extension == ".las" || extension == ".laz") return true;
+  if (extension == ".las" || extension == ".laz" || is_text_of_points(extension)) return true;
+  if (is_text(extension)) return is_point_text(beginning_of(path));
   return extension == ".ply" && is_point_ply(beginning_of(path));
 }
 
