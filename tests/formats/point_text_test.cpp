@@ -2,11 +2,11 @@
 #include "mansard/formats/xyz/point_reader.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+
+#include "base/scratch.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -16,9 +16,6 @@ using geometry::Point3;
 
 class PointText : public testing::Test {
  protected:
-  PointText() { fs::create_directories(folder_); }
-  ~PointText() override { fs::remove_all(folder_); }
-
   auto file(const std::string& name, const std::string& text) -> fs::path {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
@@ -43,7 +40,7 @@ class PointText : public testing::Test {
   }
 
  private:
-  fs::path folder_ = fs::temp_directory_path() / ("mansard-point-text-" + std::to_string(::getpid()));
+  test::Scratch folder_;
 };
 
 TEST_F(PointText, without_a_header_is_x_y_z_by_any_separator) {

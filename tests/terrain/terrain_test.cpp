@@ -195,6 +195,22 @@ TEST(Make, meets_the_ground_of_a_building_on_a_slope) {
   EXPECT_TRUE(covers_the_area_once(*terrain, grounds));
 }
 
+TEST(Make, leaves_out_a_ground_whose_outline_only_touches_the_one_that_it_overlaps) {
+  // A wedge of 1.4 cm between two houses belongs to both: its corners are on the other's edge, or at its corner.
+  Ground west{"west", {{{{0, 0}, {100'000, 0}, {100'136, 30'000}, {100'000, 50'000}, {0, 50'000}}, {}}}},
+      east{"east", {{{{100'000, 0}, {200'000, 0}, {200'000, 50'000}, {100'000, 50'000}}, {}}}};
+  west.rings[0].heights.assign(5, 4893);
+  east.rings[0].heights.assign(4, 3936);
+  const std::vector<Ground> grounds{west, east};
+  Options options;
+  const auto area = area_around(grounds, options);
+  const auto terrain = make(heights_on(area, options.cell, [](Point2) { return 0.4; }), grounds, options);
+  ASSERT_TRUE(terrain) << base::to_string(terrain.error());
+  ASSERT_EQ(terrain->warnings.size(), 1U);
+  EXPECT_EQ(terrain->warnings[0].code, "terrain-overlap");
+  EXPECT_EQ(terrain->warnings[0].subject, "east");
+}
+
 TEST(Make, is_exact_for_random_towns) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

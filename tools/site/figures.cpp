@@ -12,6 +12,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/edit/edit.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/planes/planes.hpp"
 #include "mansard/report/pictures.hpp"
 
 namespace {
@@ -371,6 +372,34 @@ void program(const Figures& to) {
   to.put("solver.svg", drawing.svg());
 }
 
+/// The points of a laser scan over some houses, by the planes that they lie on.
+void measured_planes(const Figures& to, const pipeline::Options& options) {
+  const auto scene =
+      need(ingest::read_scene({to.data / "delft/points.laz"}, to.data / "delft/footprints.geojson", options.ingest));
+  const auto block = block::partition(scene, options.block).front();
+  const auto& points = block.mesh.points;
+  const auto found = planes::find(points, {0.02, 0.14, 1});
+  const Point2 middle = 0.5 * (box_of(block.outline).least + box_of(block.outline).most);
+  const Box2 shown{middle - Point2{22, 14}, middle + Point2{22, 14}};
+  Drawing drawing(shown, 860);
+  std::vector<std::vector<Segment2>> by_plane(found.planes.size());
+  std::vector<Segment2> others;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point2 at = xy(points[i]);
+    if (!shown.contains(at)) continue;
+    const Segment2 dot{at, at + Point2{0.01, 0}};
+    if (found.plane_of[i] < by_plane.size()) by_plane[found.plane_of[i]].push_back(dot);
+    else others.push_back(dot);
+  }
+  for (std::size_t p = 0; p < by_plane.size(); ++p)
+    if (!by_plane[p].empty())
+      drawing.lines(by_plane[p], "stroke:" + hue(p, 45) + ";stroke-width:4;stroke-linecap:round");
+  drawing.lines(others, "stroke:#222;stroke-width:2;stroke-linecap:round");
+  for (const auto& member : block.members)
+    for (const auto& polygon : member.polygons) drawing.area(polygon, "fill:none;stroke:#d62828;stroke-width:1.5");
+  to.put("planes.svg", drawing.svg());
+}
+
 }  // namespace
 
 auto main(int count, char** words) -> int {
@@ -389,4 +418,5 @@ auto main(int count, char** words) -> int {
   rooms_in_plan(to, delft, options);
   surfaces(to, hall, options);
   derived(to, delft);
+  measured_planes(to, options);
 }

@@ -281,6 +281,13 @@ auto thinned(const Heights& heights, std::size_t every) -> Heights {
 
 }  // namespace
 
+auto at_steps(const Polygon& part, const Polygon& piece, const Heights& measured, const Options& options)
+    -> std::optional<Polygon> {
+  Polygon at_step = placed(part, piece, measured, options);
+  Polygon out = with_corners_of(part, without_slivers(part, std::move(at_step), options), options.pieces.slit);
+  return sound(part, out, options) ? std::optional(std::move(out)) : std::nullopt;
+}
+
 auto propose(const Polygon& part, const Heights& measured, const Heights& model, double least_gain,
              const Options& options) -> std::vector<Proposal> {
   const std::size_t cells = measured.columns * measured.rows;
@@ -301,11 +308,10 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   }
   std::vector<Proposal> out;
   for (Cut& cut : std::move(cuts).best()) {
-    Polygon at_step = placed(part, std::move(cut.polygon), measured, options);
-    Polygon piece = with_corners_of(part, without_slivers(part, std::move(at_step), options), options.pieces.slit);
-    if (!sound(part, piece, options)) continue;
+    auto piece = at_steps(part, cut.polygon, measured, options);
+    if (!piece) continue;
     std::string what = words_for(as_measured, cut, options);
-    out.push_back({std::move(piece), cut.gain, cut.errors.inside_mean, std::move(what), cut.shape == 0});
+    out.push_back({std::move(*piece), cut.gain, cut.errors.inside_mean, std::move(what), cut.shape == 0});
   }
   rank(
       out, [](const Proposal& proposal) { return -proposal.gain; }, options.same_cost);

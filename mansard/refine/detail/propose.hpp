@@ -2,6 +2,7 @@
 // into it, and straight lines between two roofs. Pure geometry: what a cut is worth in full only raising can tell.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,11 @@ struct Proposal {
   std::string what;           ///< for the reader: "stands 2.4 m above the roof around it"
   bool whole_side = false;    ///< one straight line across the part; the piece is one side of it
 };
+
+/// A piece of a part with its free sides where the scan has them (place.hpp), without the slivers that it would leave,
+/// and with the part's own corners. None where polygon operations cannot tell the two apart, or too little is left.
+[[nodiscard]] auto at_steps(const geometry::Polygon& part, const geometry::Polygon& piece, const Heights& measured,
+                            const Options& options) -> std::optional<geometry::Polygon>;
 
 /// The cuts worth trying, best first.
 ///   1. Every polygon lies in the part, is simple, and leaves at least `least_area` on either side.

@@ -10,7 +10,6 @@
 #include "mansard/refine/detail/dormers.hpp"
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
-#include "mansard/refine/detail/place.hpp"
 #include "mansard/refine/detail/refit.hpp"
 #include "mansard/refine/detail/sharpen.hpp"
 #include "mansard/refine/detail/tall.hpp"
@@ -113,9 +112,9 @@ auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> 
   const double worth = cost_of(a, b) - least_gain;
   std::vector<Proposal> seams;
   for (const Piece* piece : {&a, &b}) {
-    auto moved = placed(both.polygon, piece->site.polygon, one.site.measured, options_);
-    if (moved.outer != piece->site.polygon.outer)
-      seams.push_back({std::move(moved), misfit_between(a, b), 0, "its wall where the scan has it", false});
+    auto moved = at_steps(both.polygon, piece->site.polygon, one.site.measured, options_);
+    if (moved && moved->outer != piece->site.polygon.outer)
+      seams.push_back({std::move(*moved), misfit_between(a, b), 0, "its wall where the scan has it", false});
   }
   auto pieces = cheapest(one, seams, worth);
   return pieces.empty() ? cut_within(one, least_gain, worth) : pieces;

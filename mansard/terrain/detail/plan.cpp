@@ -22,6 +22,21 @@ auto cross_inside(const Edge& a, const Edge& b) -> bool {
 }
 
 /// Grounds with an edge that crosses one of a ground before them, or is one of it: they overlap.
+/// Whether a place is within a ground, and not on its outline. Exact: differences of coordinates are below 2³⁰.
+auto is_within(const std::array<std::int64_t, 2>& p, const Ground& ground) -> bool {
+  bool inside = false;
+  for (const auto& ring : ground.rings)
+    for (std::size_t i = 0; i < ring.corners.size(); ++i) {
+      const auto &a = ring.corners[i], &b = ring.corners[(i + 1) % ring.corners.size()];
+      const std::int64_t side = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+      const auto [left, right] = std::minmax(a[0], b[0]);
+      const auto [low, high] = std::minmax(a[1], b[1]);
+      if (side == 0 && p[0] >= left && p[0] <= right && p[1] >= low && p[1] <= high) return false;
+      if ((a[1] <= p[1]) != (b[1] <= p[1]) && (side > 0) == (b[1] > a[1])) inside = !inside;
+    }
+  return inside;
+}
+
 auto overlapping(std::span<const Ground> grounds) -> std::vector<bool> {
   std::vector<Edge> edges;
   std::vector<geometry::Box2> boxes;
@@ -44,6 +59,20 @@ auto overlapping(std::span<const Ground> grounds) -> std::vector<bool> {
       const bool same = a.from == b.from && a.to == b.to;
       if (same || cross_inside(a, b)) out[a.ground] = true;
     }
+  // Outlines that only touch where corners are on edges overlap, too, where a corner is within the other ground.
+  std::vector<geometry::Box2> extents(grounds.size());
+  for (std::size_t g = 0; g < grounds.size(); ++g)
+    for (const auto& ring : grounds[g].rings)
+      for (const auto& corner : ring.corners)
+        extents[g].add({static_cast<double>(corner[0]), static_cast<double>(corner[1])});
+  const geometry::BoxIndex extent_index(extents);
+  for (std::size_t g = 0; g < grounds.size(); ++g)
+    for (const auto& ring : grounds[g].rings)
+      for (const auto& corner : ring.corners) {
+        const geometry::Point2 at{static_cast<double>(corner[0]), static_cast<double>(corner[1])};
+        for (const std::size_t other : extent_index.overlapping({at, at}))
+          if (other != g && !out[g] && !out[other] && is_within(corner, grounds[other])) out[std::max(g, other)] = true;
+      }
   return out;
 }
 
