@@ -11,10 +11,10 @@ using geometry::Point2;
 using geometry::Point3;
 
 /// Nominal spacings: of points that lie at random, one place in 300 has none within 1.5.
-constexpr double reach = 1.5;
+constexpr double near_by = 1.5;
 /// m, and rise per run: a point below another that is so near lies on a wall, or at its foot. No roof is steeper than
 /// 79° (decision 113).
-constexpr double least_wall = 0.3, steepest = 5;
+constexpr double wall_rise = 0.3, wall_slope = 5;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ Evidence::Evidence(const rays::Scene& mesh, const Options& options) {
   constexpr double all = std::numeric_limits<double>::infinity();
   const auto points = mesh.points_in({{-all, -all}, {all, all}});
   const double spacing = std::sqrt(options.samples.point_area);
-  reach_ = reach * spacing;
+  reach_ = near_by * spacing;
   auto found = planes::find(points, {options.samples.noise, options.samples.point_area, options.least_area / 4});
   const auto box = geometry::Box2::of(points);
   if (points.empty()) return;
@@ -69,7 +69,7 @@ void Evidence::leave_out_walls(double spacing) {
     if (plane_of_[i] != planes::Found::none) continue;
     each_near(xy(points_[i]), [&](std::uint32_t k) {
       const double rise = points_[k].z - points_[i].z, run = length(xy(points_[k] - points_[i]));
-      if (run < spacing && rise > least_wall && rise > steepest * run) out[i] = 1;
+      if (run < spacing && rise > wall_rise && rise > wall_slope * run) out[i] = 1;
     });
   }
   std::uint32_t to = 0;
