@@ -98,11 +98,10 @@ void put(const std::optional<double>& given, double& to) { to = given.value_or(t
 /// What was measured of the surface of a cloud, said of its points: a vertex is the mean of some, and where the noise
 /// of vertices is independent, so is that of points. Where it is correlated over so many points that the plane through
 /// a point's neighbours shows the noise rather than the roof, a point is no measurement of its own.
-auto as_points(model::Accuracy out, const std::vector<Point3>& points, std::span<const geometry::Polygon> outline)
+auto as_points(model::Accuracy out, const std::vector<Point3>& points, std::span<const Point2> places)
     -> model::Accuracy {
   constexpr double independent = 1.5, most_points = 50;  // of the ground of a vertex; four dozen neighbours
-  const auto places = places_over(outline, most_places);
-  if (places.empty() || out.windows == 0) return out;
+  if (out.windows == 0) return out;
   const double ground = detail::Cells(points).ground_of_one(places);
   if (out.correlated_area <= independent * out.spacing * out.spacing) {
     out.noise = rounded(out.noise * std::sqrt(out.correlated_area / ground));
@@ -131,8 +130,8 @@ auto measure_noise(const geometry::Mesh& mesh, const rays::Scene& scene, std::sp
       out.spacing = spacing;
       if (out.windows > 0) out.correlated_area = std::max(out.correlated_area, rounded(spacing * spacing));
     }
+    if (of_points) out = as_points(out, mesh.points, places);
   }
-  if (!mesh.points.empty()) out = as_points(out, mesh.points, outline);
   put(o.noise, out.noise);
   put(o.correlated_area, out.correlated_area);
   put(o.spacing, out.spacing);

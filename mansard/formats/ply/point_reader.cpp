@@ -6,6 +6,7 @@
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/hash.hpp"
 #include "mansard/formats/ply/ply_file.hpp"
+#include "mansard/formats/points/field.hpp"
 #include "mansard/formats/points/in_memory.hpp"
 
 namespace mansard::formats {
@@ -13,7 +14,7 @@ namespace {
 
 using namespace ply;
 
-enum class Target { none, x, y, z, classification, return_number, returns, intensity, red, green, blue };
+using Target = PointField;
 
 auto target_of(std::string_view name) -> Target {
   static constexpr std::array<std::pair<std::string_view, Target>, 22> names{{
@@ -44,32 +45,9 @@ auto target_of(std::string_view name) -> Target {
   return at == names.end() ? Target::none : at->second;
 }
 
-template <class T>
-auto clamped(double value) -> T {
-  constexpr double most = std::numeric_limits<T>::max();
-  return value > 0 ? static_cast<T>(std::min(value, most)) : T{0};
-}
-
 /// Colours that are not integers are from 0 to 1, unless they are larger.
 auto is_share(Target target, Type type, double value) -> bool {
-  const bool colour = target == Target::red || target == Target::green || target == Target::blue;
-  return colour && (type == Type::float32 || type == Type::float64) && value <= 1;
-}
-
-void put(CloudPoint& point, Target target, double value) {
-  switch (target) {
-    case Target::none: break;
-    case Target::x: point.position.x = value; break;
-    case Target::y: point.position.y = value; break;
-    case Target::z: point.position.z = value; break;
-    case Target::classification: point.classification = clamped<std::uint8_t>(value); break;
-    case Target::return_number: point.return_number = clamped<std::uint8_t>(value); break;
-    case Target::returns: point.returns = clamped<std::uint8_t>(value); break;
-    case Target::intensity: point.intensity = clamped<std::uint16_t>(value); break;
-    case Target::red: point.colour[0] = clamped<std::uint16_t>(value); break;
-    case Target::green: point.colour[1] = clamped<std::uint16_t>(value); break;
-    case Target::blue: point.colour[2] = clamped<std::uint16_t>(value); break;
-  }
+  return is_colour(target) && (type == Type::float32 || type == Type::float64) && value <= 1;
 }
 
 template <class Values>

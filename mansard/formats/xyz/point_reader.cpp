@@ -12,12 +12,13 @@
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/files/words.hpp"
 #include "mansard/formats/hash.hpp"
+#include "mansard/formats/points/field.hpp"
 #include "mansard/formats/points/in_memory.hpp"
 
 namespace mansard::formats {
 namespace {
 
-enum class Column { none, x, y, z, classification, return_number, returns, intensity, red, green, blue };
+using Column = PointField;
 
 /// Names in lower case, without units in brackets.
 constexpr std::array<std::pair<std::string_view, Column>, 38> names{{
@@ -129,8 +130,7 @@ auto next_line(std::string_view& rest, std::size_t& number) -> std::optional<std
     if (!line.starts_with('#')) return line;
     // A header may be a comment: "# x y z".
     std::vector<std::string_view> fields;
-    const auto inside = trimmed(
-        line.substr(line.find_first_not_of('#') == std::string_view::npos ? line.size() : line.find_first_not_of('#')));
+    const auto inside = trimmed(line.substr(std::min(line.find_first_not_of('#'), line.size())));
     split(inside, separator_of(inside), fields);
     const auto has = [&](Column column) {
       return std::ranges::any_of(fields, [&](auto f) { return column_of(f) == column; });
@@ -178,32 +178,6 @@ auto layout_of(std::string_view line, std::string& what) -> std::optional<Layout
   return out;
 }
 
-template <class T>
-auto clamped(double value) -> T {
-  constexpr double most = std::numeric_limits<T>::max();
-  return value > 0 ? static_cast<T>(std::min(value, most)) : T{0};
-}
-
-/// Colours from 0 to 1, unless they are whole numbers, are shares.
-void put(CloudPoint& point, Column column, double value, bool share) {
-  if (share && value <= 1) value = std::round(255 * value);
-  switch (column) {
-    case Column::none: break;
-    case Column::x: point.position.x = value; break;
-    case Column::y: point.position.y = value; break;
-    case Column::z: point.position.z = value; break;
-    case Column::classification: point.classification = clamped<std::uint8_t>(value); break;
-    case Column::return_number: point.return_number = clamped<std::uint8_t>(value); break;
-    case Column::returns: point.returns = clamped<std::uint8_t>(value); break;
-    case Column::intensity: point.intensity = clamped<std::uint16_t>(value); break;
-    case Column::red: point.colour[0] = clamped<std::uint16_t>(value); break;
-    case Column::green: point.colour[1] = clamped<std::uint16_t>(value); break;
-    case Column::blue: point.colour[2] = clamped<std::uint16_t>(value); break;
-  }
-}
-
-auto is_colour(Column c) -> bool { return c == Column::red || c == Column::green || c == Column::blue; }
-
 auto shown(std::string_view field) -> std::string {
   constexpr std::size_t most = 40;
   return "'" + base::on_one_line(std::string(field.substr(0, most))) + (field.size() > most ? "…'" : "'");
@@ -217,7 +191,7 @@ auto parse(std::string_view text, const std::string& name, PointInfo& info) -> b
   };
   std::size_t number = 0;
   auto line = next_line(text, number);
-  if (line && !trimmed(*line).empty() && base::to_integer(trimmed(*line))) line = next_line(text, number);  // PTS
+  if (line && base::to_integer(*line)) line = next_line(text, number);  // PTS
   if (!line) return std::vector<CloudPoint>();
   std::string what;
   const auto layout = layout_of(*line, what);
@@ -243,8 +217,9 @@ auto parse(std::string_view text, const std::string& name, PointInfo& info) -> b
       const auto value = number_of(fields[i], commas);
       if (!value)
         return wrong(number, "has " + shown(fields[i]) + " where a number is expected; export the points again");
+      // Colours from 0 to 1, unless they are whole numbers, are shares.
       const bool share = is_colour(column) && fields[i].find_first_of(".,") != std::string_view::npos;
-      put(point, column, *value, share);
+      put(point, column, share && *value <= 1 ? std::round(255 * *value) : *value);
     }
     points.push_back(point);
   }
@@ -260,7 +235,7 @@ auto is_point_text(std::string_view beginning) -> bool {
   if (const auto end = beginning.rfind('\n'); end != std::string_view::npos) beginning = beginning.substr(0, end);
   std::size_t number = 0;
   auto line = next_line(beginning, number);
-  if (line && base::to_integer(trimmed(*line))) line = next_line(beginning, number);
+  if (line && base::to_integer(*line)) line = next_line(beginning, number);
   std::string what;
   return line && layout_of(*line, what);
 }
