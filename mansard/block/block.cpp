@@ -128,48 +128,103 @@ struct Surroundings {
   std::vector<Polygons> shapes;  ///< the members', then those of others nearby
 };
 
-/// Ground of each member: by the terrain, else around itself, else around the block, else the low end of the block's
-/// mesh, else that of the mesh within reach. Everything is in the block's frame but the terrain.
+/// Where the ground of a member is, and how that is known. Everything is in the block's frame but the terrain.
+class Grounds {
+ public:
+  Grounds(const Block& block, const model::Scene& scene, const Surroundings& around,
+          const std::vector<std::uint32_t>& within_reach, const Options& options)
+      : block_(block),
+        scene_(scene),
+        around_(around),
+        within_reach_(within_reach),
+        options_(options),
+        origin_(as_point(block.origin)) {
+    if (!scene.roofs_only)
+      samples_ = detail::ground_samples(around.mesh, around.shapes, block.members.size(), options);
+  }
+
+  struct Found {
+    double z = 0;
+    GroundSource source = GroundSource::unknown;
+  };
+  [[nodiscard]] auto of(std::size_t member) -> Found {
+    const auto& footprint = scene_.feature(block_.members[member].feature);
+    // Heights of files are above sea level, those here above the frames of scene and block.
+    const auto here = [&](double z) { return z - static_cast<double>(scene_.frame.origin[2]) - origin_.z; };
+    if (footprint.ground) return {here(*footprint.ground), GroundSource::attribute};
+    if (scene_.terrain)
+      if (const auto z = detail::terrain_along(*scene_.terrain, around_.shapes[member], origin_, options_))
+        return {*z, GroundSource::terrain};
+    const double share = options_.ground_percentile / 100;
+    if (!samples_.empty())
+      if (const auto z = detail::percentile(samples_[member], share, options_.ground_area))
+        return {*z, GroundSource::scan};
+    if (const auto z = of_neighbours()) return {*z, GroundSource::neighbours};
+    if (options_.ground_height) return {here(*options_.ground_height), GroundSource::option};
+    const auto low = lowest();
+    // An outline may be drawn at the eaves. The ground is not above what is seen beside the building, nor near the roof.
+    const auto is_ground = [&](double z) {
+      if (low.source == GroundSource::unknown) return true;
+      return z <= (low.source == GroundSource::assumed ? low.z + options_.storey / 2 : low.z);
+    };
+    if (const auto& z = footprint.outline_z; z && is_ground(here(*z))) return {here(*z), GroundSource::outline};
+    return low;
+  }
+
+ private:
+  [[nodiscard]] auto of_neighbours() -> std::optional<double> {
+    if (!neighbours_) {
+      std::vector<detail::Sample> all;
+      for (const auto& some : samples_) all.insert(all.end(), some.begin(), some.end());
+      neighbours_ = detail::percentile(std::move(all), options_.ground_percentile / 100, options_.ground_area);
+    }
+    return *neighbours_;
+  }
+
+  /// The same for all members: where nothing shows the ground of any.
+  [[nodiscard]] auto lowest() -> const Found& {
+    if (lowest_) return *lowest_;
+    const double rest = options_.ground_rest_percentile / 100;
+    const auto low_of = [&](std::vector<detail::Sample> samples) {
+      return detail::percentile(std::move(samples), rest, 0);
+    };
+    auto& found = lowest_.emplace();
+    std::optional<double> z;
+    if (!scene_.roofs_only)
+      z = low_of(detail::beside_samples(block_.mesh, around_.shapes, block_.outline, options_));
+    if (z) return found = {*z, GroundSource::lowest};
+    if (const auto roof = low_of(detail::surface_samples(block_.mesh)))
+      return found = {*roof - options_.storey, GroundSource::assumed};
+    z = low_of(detail::surface_samples(around_.mesh));
+    if (!z) z = low_of(detail::surface_samples(part_of(scene_.mesh, within_reach_, origin_)));
+    if (z) found = {*z, GroundSource::lowest};
+    return found;
+  }
+
+  const Block& block_;
+  const model::Scene& scene_;
+  const Surroundings& around_;
+  const std::vector<std::uint32_t>& within_reach_;
+  const Options& options_;
+  Point3 origin_;
+  std::vector<std::vector<detail::Sample>> samples_;     ///< of each member; empty where nothing can be ground
+  std::optional<std::optional<double>> neighbours_;
+  std::optional<Found> lowest_;
+};
+
 void set_ground(Block& block, const model::Scene& scene, const Surroundings& around,
                 const std::vector<std::uint32_t>& within_reach, const Options& options) {
-  const double share = options.ground_percentile / 100, rest = options.ground_rest_percentile / 100;
-  const Point3 origin = as_point(block.origin);
-  const auto samples = detail::ground_samples(around.mesh, around.shapes, block.members.size(), options);
-  std::optional<double> of_block;
-  bool seen = true;
-  std::size_t without = 0;
-  const auto fall_back = [&]() -> std::optional<double> {
-    if (of_block) return of_block;
-    std::vector<detail::Sample> all;
-    for (const auto& some : samples) all.insert(all.end(), some.begin(), some.end());
-    of_block = detail::percentile(std::move(all), share, options.ground_area);
-    seen = of_block.has_value();
-    if (!of_block) of_block = detail::percentile(detail::surface_samples(block.mesh), rest, 0);
-    if (!of_block) of_block = detail::percentile(detail::surface_samples(around.mesh), rest, 0);
-    if (!of_block)
-      of_block = detail::percentile(detail::surface_samples(part_of(scene.mesh, within_reach, origin)), rest, 0);
-    return of_block;
-  };
   std::vector<double> heights;
+  Grounds grounds(block, scene, around, within_reach, options);
   for (std::size_t i = 0; i < block.members.size(); ++i) {
-    auto own = scene.terrain ? detail::terrain_along(*scene.terrain, around.shapes[i], origin, options) : std::nullopt;
-    if (!own) own = detail::percentile(samples[i], share, options.ground_area);
-    if (!own) {
-      own = fall_back();
-      without += seen ? 0 : 1;
-    }
-    if (!own) block.ground_known = false;
-    block.members[i].ground = own ? model::rounded(*own, ground_unit) : 0;
-    heights.push_back(block.members[i].ground);
+    const auto found = grounds.of(i);
+    auto& member = block.members[i];
+    member.ground_source = found.source;
+    if (found.source == GroundSource::unknown) block.ground_known = false;
+    else member.ground = model::rounded(found.z, ground_unit);
+    heights.push_back(member.ground);
   }
   block.ground = heights.empty() ? 0 : base::mean_median(std::move(heights));
-  if (without > 0 && block.ground_known)
-    block.warnings.push_back(base::warning(
-        "block-ground-unseen",
-        "the scan shows no ground around " + std::to_string(without) + " of " + std::to_string(block.members.size()) +
-            (block.members.size() == 1 ? " building" : " buildings") +
-            "; the lowest surface nearby was taken, which may be a roof: heights and volumes may be too small. Give a "
-            "terrain model (--dtm), or a scan with ground"));
 }
 
 /// Moves everything by whole metres.
@@ -307,6 +362,21 @@ auto points_of(const std::vector<Point3>& points, const std::vector<std::uint32_
 
 }  // namespace
 
+auto to_string(GroundSource source) -> std::string_view {
+  switch (source) {
+    case GroundSource::attribute: return "attribute";
+    case GroundSource::terrain: return "terrain";
+    case GroundSource::scan: return "scan";
+    case GroundSource::neighbours: return "neighbours";
+    case GroundSource::option: return "option";
+    case GroundSource::outline: return "outline";
+    case GroundSource::lowest: return "lowest";
+    case GroundSource::assumed: return "assumed";
+    case GroundSource::unknown: break;
+  }
+  return "unknown";
+}
+
 auto in_own_frame(Block block) -> OwnFrame {
   OwnFrame out;
   move(block, -1.0 * as_point(block.origin));
@@ -325,9 +395,13 @@ auto codes() -> std::vector<base::Code> {
       {"block-outline", "The union of a block's footprints, or of the gaps between them, could not be computed.",
        "The outline of the block keeps its gaps, or consists of the single footprints; repair the footprints there.",
        0},
-      {"block-ground-unseen", "No ground is visible in the scan around a block, nor in a terrain model.",
-       "The base of its buildings is as high as the lowest surface nearby, which may be a roof. Give a terrain model "
-       "(--dtm) or a scan with ground.",
+      {"block-ground-unseen", "No level ground is visible in the scan around a building, nor is there a terrain model.",
+       "Its base is as high as the lowest surface beside it, which may be too high. Give a terrain model (--dtm), "
+       "--ground-height, or a scan with ground.",
+       0},
+      {"block-ground-assumed", "Nothing shows the ground at a building: the scan has roofs only.",
+       "Its base is assumed to be a storey below the lowest roof of its block, so that its height above ground and its "
+       "volume are not measured. Give a terrain model (--dtm), --ground-attribute, or --ground-height.",
        0}};
 }
 
@@ -349,6 +423,16 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("ground_cosine", o.ground_cosine, "", {0, 1}, "Cosine of the maximum slope of mesh that may be ground.")
       .advanced("45°; not measured");
+  list.number("ground_height", o.ground_height, "m", {-1e4, 1e5},
+              "Height of the ground in the heights of the files, where neither a terrain model nor the scan shows any.")
+      .alias("ground_height")
+      .source("none by default");
+  list.number("overhang", o.overhang, "m", {0, 100},
+              "Distance around a footprint within which a level surface may be its roof, and is not taken for ground.")
+      .advanced("wide eaves; not measured");
+  list.number("storey", o.storey, "m", {0.5, 100},
+              "Distance of an assumed ground below the lowest roof, where nothing shows the ground.")
+      .advanced("the height of a storey");
   list.number("ground_piece", o.ground_piece, "m", {0.05, 100},
               "Maximum length in plan of the piece of a triangle that one sample of the ground represents.")
       .advanced("chosen by hand; not measured");

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mansard/base/options.hpp"
@@ -16,11 +18,27 @@
 
 namespace mansard::block {
 
+/// What the height of the ground at a building comes from, the surest first.
+enum class GroundSource : std::uint8_t {
+  attribute,   ///< of the footprint
+  terrain,     ///< a terrain model, or the ground points of a cloud
+  scan,        ///< level mesh around the footprint
+  neighbours,  ///< level mesh around the block
+  option,      ///< Options::ground_height
+  outline,     ///< the z of a footprint that is drawn in three dimensions
+  lowest,      ///< the lowest of what the scan shows beside the building: it may be too high
+  assumed,     ///< a storey below the lowest roof: nothing shows the ground
+  unknown,     ///< there is no scan near it
+};
+/// As in attributes: "terrain".
+[[nodiscard]] auto to_string(GroundSource source) -> std::string_view;
+
 /// One footprint of a block.
 struct Member {
   std::size_t feature = 0;  ///< number in the scene: Scene::feature
   std::vector<geometry::Polygon> polygons;
   double ground = 0;  ///< z of the ground around it, metres
+  GroundSource ground_source = GroundSource::scan;
 };
 
 struct Block {
@@ -29,9 +47,9 @@ struct Block {
   std::vector<geometry::Polygon> outline;    ///< the union of the members, gaps under the touch tolerance closed
   geometry::Mesh mesh;                       ///< the triangles within the padding of the outline
   double ground = 0;                         ///< z, metres: the median of the members'
-  bool ground_known = true;                  ///< false where neither terrain nor mesh is near; then all grounds are 0
+  bool ground_known = true;                  ///< false where nothing says a ground and no mesh is near; it is 0 then
   std::array<std::int64_t, 3> origin{};      ///< of its own frame, in that of the scene; whole metres
-  std::vector<base::Diagnostic> warnings{};  ///< "block-outline", "block-ground-unseen", without subject
+  std::vector<base::Diagnostic> warnings{};  ///< "block-outline", without subject
 };
 
 /// A block in its own frame, which begins at whole metres below it, and with its members in an order of their own: all
@@ -50,6 +68,9 @@ struct Options {
   double ground_area =
       5.0;  ///< m²; less level ground around a building is more likely an awning or the eaves than the street
   double ground_cosine = 0.7071;        ///< cosine of 45°: steeper is wall, hedge or the side of a car
+  double overhang = 1.0;                ///< m; so far around a footprint a level surface may be its roof
+  std::optional<double> ground_height;  ///< m, in the heights of the files; where neither terrain nor scan shows any
+  double storey = 3.0;                  ///< m; from the lowest roof down to a ground that nothing shows
   double ground_piece = 2.0;            ///< m: the longest side, in plan, of what one sample stands for
   double ground_rest_percentile = 2.0;  ///< %; of all heights of the mesh, where no ground is seen
   double ground_reach = 50.0;           ///< m; how far from a block, at most, the mesh says something of its ground
@@ -60,8 +81,8 @@ struct Options {
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
-/// The ground is the scene's terrain where that is known along a footprint's outline, else what the mesh shows around
-/// it, rounded to 2⁻¹⁰ m. Footprints with a defect are left out, and so are blocks of surroundings alone.
+/// The ground is what the footprint's attribute says, else the scene's terrain where that is known along the outline,
+/// else what the mesh shows around it, else one of the others of GroundSource, rounded to 2⁻¹⁰ m. Footprints with a defect are left out, and so are blocks of surroundings alone.
 /// Guarantees: 1 every usable footprint is in exactly one block · 2 blocks and members are ordered by feature number,
 /// whatever the thread count · 3 every triangle of the scene within the padding of a block's outline is in that block's
 /// mesh, and none entirely farther away · 4 a block depends on its members, on the footprints and the mesh near it and

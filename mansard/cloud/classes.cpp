@@ -98,6 +98,12 @@ auto class_map(const Options& options) -> base::Result<ClassMap> {
   return map;
 }
 
+auto any_ground(const std::array<std::uint64_t, 256>& counts) -> bool {
+  for (const std::size_t c : {2, 9, 10, 11, 17, 26})
+    if (counts[c] > 0) return true;
+  return false;
+}
+
 auto class_name(std::uint8_t classification) -> std::string_view {
   switch (classification) {
     case 0: return "never classified";

@@ -21,6 +21,10 @@ using ClassMap = std::array<std::uint8_t, 256>;
 /// for a class in two lists.
 [[nodiscard]] auto class_map(const Options& options) -> base::Result<ClassMap>;
 
+/// Whether any points are of a class that can be the ground beside a building: ground, water, roads, rails, bridges.
+/// `counts`: of points by the class that they are taken for.
+[[nodiscard]] auto any_ground(const std::array<std::uint64_t, 256>& counts) -> bool;
+
 /// The name that the specification gives a class, in lower case; empty for one that it reserves or leaves to users.
 [[nodiscard]] auto class_name(std::uint8_t classification) -> std::string_view;
 

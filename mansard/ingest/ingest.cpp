@@ -119,6 +119,7 @@ auto finish(formats::RawFeature feature, std::string id, const model::Frame& fra
   auto& footprint = out.footprint;
   footprint.id = std::move(id);
   footprint.attributes = std::move(feature.attributes);
+  footprint.outline_z = feature.lowest;
   const auto refuse = [&](base::Diagnostic why) {
     why.subject = footprint.id;
     footprint.defect = std::move(why);
@@ -146,6 +147,7 @@ auto finish(formats::RawFeature feature, std::string id, const model::Frame& fra
   } else if (!box.overlaps(mesh)) {
     refuse(
         base::error("ingest-footprint-outside", "it lies outside the mesh; give the mesh there, or cut with --bbox"));
+    footprint.polygons = std::move(repaired.polygons);  // written as LoD 0
   } else {
     footprint.polygons = std::move(repaired.polygons);
     if (feature.other_geometry) repaired.repairs.push_back("points, lines or solids beside its polygons were left out");
@@ -368,6 +370,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   if (!ids) return ids.error();
 
   scene.inputs = std::move(meshes->inputs);
+  scene.roofs_only = meshes->roofs_only;
   const Box2 ground_box = cells == nullptr ? plan_of(scene.mesh) : within ? within->grown(mesh_margin) : local;
   if (auto taken = take_terrain(options, ground_box, std::move(meshes->ground), scene); !taken) return taken.error();
   scene.inputs.insert(scene.inputs.end(), ground->chosen.file.inputs.begin(), ground->chosen.file.inputs.end());

@@ -46,6 +46,8 @@ struct Scene {
   std::vector<Footprint> surroundings;
   /// The ground, where it was given; else blocks look for it in the mesh.
   std::shared_ptr<const HeightGrid> terrain;
+  /// The scan has nothing but buildings: points of these classes alone. Nothing in it can be ground.
+  bool roofs_only = false;
   Frame frame;
   std::vector<InputFile> inputs;
   MeshCounts mesh_counts;

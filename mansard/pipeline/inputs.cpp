@@ -1,11 +1,14 @@
 #include "mansard/pipeline/inputs.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mansard/base/text.hpp"
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/input_name.hpp"
+#include "mansard/roof/roof.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -33,6 +36,31 @@ auto keep_within(const Box2& box, model::Scene& scene) -> base::Result<void> {
   if (!scene.footprints.empty()) return {};
   return base::error("derive-nothing", "no derived footprint is in the box asked for (" + in_words(box) +
                                            "); they are in " + in_words(all));
+}
+
+/// The heights of the ground that an attribute of the footprints says.
+auto take_grounds(const Options& options, model::Scene& scene) -> base::Result<void> {
+  const auto& name = options.roof.ground_attribute;
+  if (name.empty()) return {};
+  auto reading = options.roof;
+  reading.ground = std::numeric_limits<double>::quiet_NaN();
+  bool any = false;
+  for (auto* footprints : {&scene.footprints, &scene.surroundings})
+    for (auto& footprint : *footprints) {
+      const auto at = std::ranges::find(footprint.attributes, name, &model::Attributes::value_type::first);
+      if (at == footprint.attributes.end()) continue;
+      any = true;
+      auto read = roof::form_of({*at}, reading);
+      if (std::isfinite(read.form.ground)) footprint.ground = read.form.ground;
+      for (auto& warning : read.warnings) {
+        warning.subject = footprint.id;
+        scene.warnings.push_back(std::move(warning));
+      }
+    }
+  if (any || scene.footprints.empty()) return {};
+  return base::error("pipeline-ground-attribute",
+                     "no footprint has the attribute '" + name + "' of --ground-attribute; check its name",
+                     "roof.ground_attribute");
 }
 
 }  // namespace
@@ -74,7 +102,12 @@ auto read_inputs(const InputPaths& paths, const Options& options, const base::Ru
                            : "there are no footprints; give some, or have them drawn from the mesh with "
                              "--derive-footprints",
                        paths.footprints.string());
-  if (!paths.derive_footprints) return ingest::read_scene(paths.meshes, paths.footprints, options.ingest, run);
+  if (!paths.derive_footprints) {
+    auto scene = ingest::read_scene(paths.meshes, paths.footprints, options.ingest, run);
+    if (!scene) return scene;
+    if (auto taken = take_grounds(options, *scene); !taken) return taken.failure();
+    return scene;
+  }
   // The ground, and so what stands on it, is found by what it is joined to, however far: footprints are those of the
   // whole mesh, and the box only chooses among them.
   const auto box = ingest::box_of(options.ingest);
@@ -94,8 +127,12 @@ auto read_inputs(const InputPaths& paths, const Options& options, const base::Ru
 
 auto read_city_inputs(const InputPaths& paths, const Options& options, const base::Run& run)
     -> base::Result<ingest::CityScene> {
-  if (!paths.footprints.empty() && !paths.derive_footprints)
-    return ingest::read_city(paths.meshes, paths.footprints, options.ingest, run);
+  if (!paths.footprints.empty() && !paths.derive_footprints) {
+    auto city = ingest::read_city(paths.meshes, paths.footprints, options.ingest, run);
+    if (!city) return city;
+    if (auto taken = take_grounds(options, city->scene); !taken) return taken.failure();
+    return city;
+  }
   auto scene = read_inputs(paths, options, run);
   if (!scene) return scene.failure();
   return ingest::CityScene{std::move(*scene), nullptr};

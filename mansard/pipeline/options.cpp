@@ -37,8 +37,12 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   base::OptionList own("pipeline");
   own.integer("seed", options.seed, "", {0, 9e15}, "Seed of all sampling; the same seed gives the same bytes.")
       .alias("seed")
-      .number("assumed_height", options.assumed_height, "m", {0.5, 100},
-              "Height of the prism of a footprint without mesh coverage.")
+      .number("assumed_height", options.assumed_height, "m", {0, 100},
+              "Height of the prism of a footprint over which the scan shows nothing; 0 for none: the footprint is then "
+              "written without a model.")
+      .number("partly_seen", options.partly_seen, "", {0, 1},
+              "Share of a footprint over which the scan shows nothing from which on a building is reported as partly "
+              "seen.")
       .number("roof_grid", options.roof_grid, "m", {0.05, 5},
               "Sample spacing of the roof heights among the attributes.")
       .string("survey_source", options.survey_source, "Name of the scan, for the attribute ms_source of buildings.")
@@ -418,8 +422,16 @@ auto codes() -> std::vector<base::Code> {
       {"pipeline-no-ground",
        "There is no mesh within block.ground_reach of the footprint's block, so its ground is unknown.",
        "Give the mesh there, or the ground's heights with --dtm.", 1},
-      {"pipeline-no-mesh", "The mesh shows no surface over this footprint, so its height is assumed.",
-       "Use a mesh that covers the footprint, or set pipeline.assumed_height.", 1},
+      {"pipeline-ground-attribute", "No footprint has the attribute that is to say the height of the ground.",
+       "Check the name of --ground-attribute; 'mansard info FOOTPRINTS' lists the attributes.", 3},
+      {"pipeline-no-mesh",
+       "The scan shows no surface over this footprint. It is written without a model (LoD 0), or as a prism of "
+       "pipeline.assumed_height where that is set. Where the scan shows another part of the building, the part is as high "
+       "as that.",
+       "Use a scan that covers the footprint, or set pipeline.assumed_height.", 1},
+      {"pipeline-partly-seen",
+       "The scan shows nothing over a part of the footprint. The roof there continues what is seen beside it.",
+       "Look at the building, or use a scan that covers it. ms_nodata_share is the share without data.", 0},
       {"pipeline-low", "The mesh over this footprint is lower than segment.min_height above the ground.",
        "Lower segment.min_height if low buildings matter; the building is a prism of its median height.", 1},
       {"pipeline-outside", "No face of the fractured ground was given to this footprint.",

@@ -32,6 +32,7 @@ auto outlines_of(const model::Scene& scene) -> std::vector<Polygon> {
   std::vector<Polygon> all;
   for (const auto& footprint : scene.footprints)
     for (auto polygon : footprint.polygons) {
+      if (footprint.defect) continue;
       for (auto& p : polygon.outer) p = p + origin;
       for (auto& hole : polygon.holes)
         for (auto& p : hole) p = p + origin;

@@ -30,6 +30,10 @@ auto attributes() -> std::vector<formats::Attribute> {
       "withheld; "
       "counted in cells of 1 m; only with point clouds and footprints that were given.");
   add("ms_h_ground", both, "number", "m", "z of the ground; of a building where it has parts.");
+  add("ms_ground_source", building, "string", "",
+      "What the height of the ground comes from: attribute, terrain (a terrain model or ground points), scan (level "
+      "surface around the building), neighbours (around its block), option, outline (z of the footprint), lowest (the "
+      "lowest surface beside it, which may be too high) or assumed (a storey below the lowest roof).");
   const Objects with_roof{"Building", "BuildingPart", "RoofSurface"};
   add("ms_h_roof_min", with_roof, "number", "m",
       "z of the lowest corner of the roof; of a part made with a mesh, of its lowest sample on a grid of "

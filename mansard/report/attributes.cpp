@@ -201,7 +201,9 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
     levels = level_measures(plain, {{0, 0, static_cast<std::int64_t>(z0)}, {}}, {}, nullptr, 1);
   now.emplace_back("ms_outcome", std::string(to_string(outcome)));
   now.emplace_back("ms_success", !building.parts.empty());
-  now.emplace_back("ms_quality", quality_of(to_string(outcome), levels));
+  const auto source = std::ranges::find(building.attributes, "ms_ground_source", &model::Attributes::value_type::first);
+  const auto* ground = source == building.attributes.end() ? nullptr : std::get_if<std::string>(&source->second);
+  now.emplace_back("ms_quality", quality_of(to_string(outcome), levels, ground == nullptr ? "" : *ground));
   constexpr double storey = 3;  // m; the default of roof.level_height
   for (auto& measure : building_measures(plain, z0, storey)) now.push_back(std::move(measure));
   for (auto& measure : levels) now.push_back(std::move(measure));

@@ -335,10 +335,11 @@ auto coverage(const rays::Scene& mesh, std::span<const geometry::Polygon> polygo
           std::max(0.0, std::sqrt(widest(empty)) - 0.5) * grid};
 }
 
-auto quality_of(std::string_view outcome, const model::Attributes& levels) -> std::string {
+auto quality_of(std::string_view outcome, const model::Attributes& levels, std::string_view ground_source)
+    -> std::string {
   if (outcome == "refused" || outcome == "covered") return "none";
   constexpr double half = 0.5;
-  bool good = outcome == "full";
+  bool good = outcome == "full" && ground_source != "assumed" && ground_source != "lowest";
   for (const auto& [name, value] : levels) {
     const bool validity = std::ranges::any_of(level_names(), [&](const auto& names) { return name == names.val3dity; });
     if (validity) good = good && value == model::Value(std::string("[]"));

@@ -41,6 +41,7 @@ struct Coverage {
     -> Coverage;
 
 /// "good", "check" or "none": see the attribute ms_quality. `levels` has the attributes of level_measures.
-[[nodiscard]] auto quality_of(std::string_view outcome, const model::Attributes& levels) -> std::string;
+[[nodiscard]] auto quality_of(std::string_view outcome, const model::Attributes& levels,
+                              std::string_view ground_source = {}) -> std::string;
 
 }  // namespace mansard::report

@@ -62,6 +62,7 @@ class FootprintLines {
     };
     for (const auto& footprint : scene.footprints)
       for (const auto& polygon : footprint.polygons) {
+        if (footprint.defect) continue;
         add(polygon.outer);
         for (const auto& hole : polygon.holes) add(hole);
       }
@@ -207,6 +208,7 @@ class Grounds {
     std::vector<geometry::Box2> boxes;
     for (const auto& footprint : scene.footprints)
       for (const auto& polygon : footprint.polygons) {
+        if (footprint.defect) continue;
         polygons_.push_back(&polygon);
         boxes.push_back(geometry::bounds(polygon.outer).grown(near));
       }
@@ -373,7 +375,8 @@ auto model_images(const Drawn& drawn, const geometry::Box2& frame, std::span<con
 auto frame_of(const model::Scene& scene) -> geometry::Box2 {
   constexpr double street = 8;
   geometry::Box2 box;
-  for (const auto& footprint : scene.footprints) box.include(geometry::bounds(footprint.polygons));
+  for (const auto& footprint : scene.footprints)
+    if (!footprint.defect) box.include(geometry::bounds(footprint.polygons));
   return box.grown(street);
 }
 

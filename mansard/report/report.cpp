@@ -124,6 +124,7 @@ auto json_of(const BuildingReport& b) -> Json {
   if (b.derived) out["derived"] = true;
   if (b.parts > 0) {
     out["ground_m"] = b.ground;
+    if (!b.ground_source.empty()) out["ground_source"] = b.ground_source;
     out["roof_min_m"] = b.roof_min;
     out["roof_max_m"] = b.roof_max;
     out["volume_m3"] = b.volume;

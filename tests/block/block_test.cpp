@@ -405,19 +405,37 @@ TEST(Ground, of_a_house_without_a_street_is_its_neighbours_or_the_foot_of_the_me
   EXPECT_FALSE(partition(scene_of({}, {{box(0, 0, 10, 10)}}), {})[0].ground_known);
 }
 
-TEST(Ground, that_no_scan_shows_is_told) {
-  const auto warnings_of = [](const model::Scene& scene) {
-    const auto blocks = partition(scene, {});
-    EXPECT_EQ(blocks.size(), 1U);
-    return blocks.empty() ? std::vector<base::Diagnostic>() : blocks.front().warnings;
-  };
+TEST(Ground, that_no_scan_shows_is_assumed_below_the_roofs_or_what_somebody_says) {
   const std::vector<std::vector<Polygon>> two{{box(0, 0, 10, 10)}, {box(10, 0, 20, 10)}};
-  const auto roofs = warnings_of(scene_of(field(0, 0, 20, 10, 1, level(9)), two));  // as delivered: roofs only
-  ASSERT_EQ(roofs.size(), 1U);
-  EXPECT_EQ(roofs[0].code, "block-ground-unseen");
-  EXPECT_THAT(roofs[0].message, ::testing::HasSubstr("around 2 of 2 buildings"));
+  const auto member_of = [](const model::Scene& scene, const Options& options = {}) {
+    const auto blocks = partition(scene, options);
+    EXPECT_EQ(blocks.size(), 1U);
+    return blocks.at(0).members.at(0);
+  };
+  // As delivered: roofs only, with eaves that overhang by 0.6 m.
+  auto scene = scene_of(field(-0.6, -0.6, 20.6, 10.6, 0.2, level(9)), two);
+  const auto assumed = member_of(scene);
+  EXPECT_EQ(assumed.ground_source, GroundSource::assumed);
+  EXPECT_NEAR(assumed.ground, 6, 1e-3);
+  // A z of the outline counts where it is not at the eaves.
+  scene.footprints[0].outline_z = 8.9;
+  EXPECT_EQ(member_of(scene).ground_source, GroundSource::assumed);
+  scene.footprints[0].outline_z = 1.2;
+  EXPECT_EQ(member_of(scene).ground_source, GroundSource::outline);
+  EXPECT_NEAR(member_of(scene).ground, 1.2, 1e-3);
+  Options options;
+  options.ground_height = 2.5;
+  EXPECT_EQ(member_of(scene, options).ground_source, GroundSource::option);
+  EXPECT_NEAR(member_of(scene, options).ground, 2.5, 1e-3);
+  scene.footprints[0].ground = -3;
+  EXPECT_EQ(member_of(scene, options).ground_source, GroundSource::attribute);
+  EXPECT_NEAR(member_of(scene, options).ground, -3, 1e-3);
+  // With a street, that is the ground; not where the scan is known to have roofs only.
   const auto house = [](Point2 p) { return p.x > 0 && p.x < 20 && p.y > 0 && p.y < 10 ? 9.0 : 0.0; };
-  EXPECT_TRUE(warnings_of(scene_of(field(-8, -8, 28, 18, 1, house), two)).empty());
+  auto street = scene_of(field(-8, -8, 28, 18, 1, house), two);
+  EXPECT_EQ(member_of(street, options).ground_source, GroundSource::scan);
+  street.roofs_only = true;
+  EXPECT_EQ(member_of(street, options).ground_source, GroundSource::option);
 }
 
 TEST(Ground, is_the_terrain_where_that_is_known_along_the_outline) {

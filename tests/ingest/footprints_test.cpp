@@ -322,6 +322,18 @@ TEST_F(Sources, a_feature_that_is_damaged_in_its_file_leaves_the_others_alone) {
   EXPECT_EQ(cut->footprints[1].defect->code, "ingest-footprint-unreadable");
 }
 
+TEST_F(Sources, have_the_lowest_height_of_an_outline_where_it_is_drawn_in_three_dimensions) {
+  const auto scene = read({ground()}, file("f.geojson", R"({"type":"FeatureCollection","features":[
+    {"type":"Feature","properties":{"id":"flat"},"geometry":{"type":"Polygon","coordinates":[[[10,10],[20,10],[20,20],[10,10]]]}},
+    {"type":"Feature","properties":{"id":"zero"},"geometry":{"type":"Polygon","coordinates":[[[10,10,0],[20,10,0],[20,20,0],[10,10,0]]]}},
+    {"type":"Feature","properties":{"id":"high"},"geometry":{"type":"Polygon","coordinates":[[[10,10,42.5],[20,10,41],[20,20,43],[10,10,42.5]]]}}]})"));
+  ASSERT_TRUE(scene) << base::to_string(scene.error());
+  ASSERT_EQ(scene->footprints.size(), 3U);
+  EXPECT_FALSE(scene->footprints[0].outline_z);
+  EXPECT_FALSE(scene->footprints[1].outline_z) << "a z that nobody measured";
+  EXPECT_EQ(scene->footprints[2].outline_z, 41);
+}
+
 TEST_F(Sources, a_feature_that_cannot_be_used_affects_no_other) {
   write("GPKG", at("f.gpkg"), 28992,
         {{"POLYGON ((10 10,20 10,20 20,10 10))", "good", 1},
@@ -338,7 +350,8 @@ TEST_F(Sources, a_feature_that_cannot_be_used_affects_no_other) {
   std::vector<std::string> defects;
   for (const auto& f : scene->footprints) {
     defects.push_back(f.defect ? f.defect->code : "");
-    EXPECT_EQ(f.polygons.empty(), f.defect.has_value());
+    const bool is_sound = !f.defect || f.defect->code == "ingest-footprint-outside";
+    EXPECT_EQ(f.polygons.empty(), !is_sound) << f.id;
     EXPECT_EQ(f.defect.value_or(base::error("", "", f.id)).subject, f.id);
   }
   EXPECT_THAT(defects, ElementsAre("", "ingest-footprint-empty", "ingest-footprint-empty", "ingest-footprint-type", "",

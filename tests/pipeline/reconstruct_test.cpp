@@ -166,6 +166,65 @@ TEST(Reconstruct, raises_a_footprint_without_mesh_as_a_prism_and_says_so) {
   expect_valid(r);
 }
 
+TEST(Reconstruct, leaves_a_footprint_over_which_nothing_is_seen_without_a_model_and_says_so) {
+  auto scene = test::lone_house();
+  scene.footprints.push_back(footprint("nowhere", rectangle(60, 60, 70, 68)));
+  auto outside = footprint("outside", rectangle(900, 900, 910, 908));
+  outside.defect = base::error("ingest-footprint-outside", "it lies outside the mesh", "outside");
+  scene.footprints.push_back(outside);
+  const auto r = reconstructed(scene);
+  EXPECT_EQ(r.buildings[0].outcome, report::Outcome::full);
+  for (const std::size_t i : {1, 2}) {
+    EXPECT_EQ(r.buildings[i].outcome, report::Outcome::refused);
+    EXPECT_EQ(r.buildings[i].parts, 0U);
+    EXPECT_THAT(r.city.buildings[i].parts, testing::IsEmpty());
+    EXPECT_THAT(r.city.buildings[i].footprint, testing::SizeIs(1)) << "written as LoD 0";
+    EXPECT_TRUE(std::isnan(value(r.city.buildings[i].attributes, "ms_volume_lod22")));
+  }
+  EXPECT_EQ(r.buildings[1].reasons.at(0).code, "pipeline-no-mesh");
+  EXPECT_EQ(r.buildings[2].reasons.at(0).code, "ingest-footprint-outside");
+}
+
+TEST(Reconstruct, continues_a_roof_of_which_the_scan_shows_a_half_and_says_so) {
+  auto scene = test::lone_house();
+  scene.mesh = {};  // the scan ends in the middle of the house
+  test::add_quad(scene.mesh, {-20, -20, 0}, {6, -20, 0}, {6, 40, 0}, {-20, 40, 0});
+  for (const bool south : {true, false}) {
+    const double eaves = south ? 0 : 8;
+    test::add_quad(scene.mesh, {0, eaves, 0}, {6, eaves, 0}, {6, eaves, 5}, {0, eaves, 5});
+    test::add_quad(scene.mesh, {0, eaves, 5}, {6, eaves, 5}, {6, 4, 8}, {0, 4, 8});
+  }
+  test::add_quad(scene.mesh, {0, 8, 0}, {0, 0, 0}, {0, 0, 5}, {0, 8, 5});
+  test::add_triangle(scene.mesh, {0, 8, 5}, {0, 0, 5}, {0, 4, 8});
+  const auto r = reconstructed(scene);
+  EXPECT_NEAR(r.buildings.at(0).volume, 12 * 8 * 5 + 12 * 8 * 3 / 2, 15);
+  EXPECT_NEAR(value(r.city.buildings[0].attributes, "ms_nodata_share"), 0.5, 0.06);
+  EXPECT_THAT(r.buildings[0].reasons, testing::Contains(testing::Field(&base::Diagnostic::code, "pipeline-partly-seen")));
+  expect_valid(r);
+}
+
+TEST(Reconstruct, says_what_the_height_of_the_ground_comes_from) {
+  const auto source_of = [](const model::Scene& scene, const Options& options = {}) {
+    const auto r = reconstructed(scene, options);
+    for (const auto& [name, found] : r.city.buildings.at(0).attributes)
+      if (name == "ms_ground_source") return std::get<std::string>(found);
+    return std::string("none");
+  };
+  auto scene = test::lone_house();
+  EXPECT_EQ(source_of(scene), "scan");
+  scene.footprints[0].ground = -1;
+  EXPECT_EQ(source_of(scene), "attribute");
+  scene.footprints[0].ground.reset();
+  scene.roofs_only = true;
+  EXPECT_EQ(source_of(scene), "assumed");
+  const auto r = reconstructed(scene);
+  EXPECT_THAT(r.buildings[0].reasons, testing::Contains(testing::Field(&base::Diagnostic::code, "block-ground-assumed")));
+  Options options;
+  options.block.ground_height = 1.5;
+  EXPECT_EQ(source_of(scene, options), "option");
+  EXPECT_NEAR(reconstructed(scene, options).buildings[0].ground, 1.5, 1e-3);
+}
+
 TEST(Reconstruct, raises_a_footprint_on_bare_ground_as_a_low_prism_and_says_so) {
   auto scene = test::lone_house();
   scene.footprints.push_back(footprint("meadow", rectangle(22, 22, 30, 30)));

@@ -43,17 +43,41 @@ void cut_up(const Triangle3& t, const Box2& within, double piece_size, int depth
   cut_up({middle, b, c}, within, piece_size, depth - 1, take);
 }
 
-/// Which of the shapes that come near a region hold a point.
+/// Which of the shapes that come near a region are near a point: what is above their eaves is roof.
 struct Obstacles {
+  double overhang = 0;
   std::vector<const Polygon*> polygons;
   std::vector<Box2> boxes;
 
+  void add(const std::vector<Polygon>& shape) {
+    for (const auto& polygon : shape) {
+      polygons.push_back(&polygon);
+      boxes.push_back(geometry::bounds(polygon.outer).grown(overhang));
+    }
+  }
   [[nodiscard]] auto hold(Point2 p) const -> bool {
     for (std::size_t i = 0; i < polygons.size(); ++i)
-      if (boxes[i].contains(p) && geometry::contains(*polygons[i], p)) return true;
+      if (boxes[i].contains(p) &&
+          (geometry::contains(*polygons[i], p) || geometry::boundary_distance(*polygons[i], p) < overhang))
+        return true;
     return false;
   }
 };
+
+auto is_steep(Point3 normal, const Options& options) -> bool {
+  // Upside down is as good: orientation is not to be relied on.
+  return normal.z * normal.z < options.ground_cosine * options.ground_cosine * dot(normal, normal);
+}
+
+template <class Take>
+void each_sample(const geometry::Mesh& mesh, const Take& take) {
+  for (const auto& t : mesh.triangles) {
+    const Point3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+    const Point3 centre = (1.0 / 3) * (a + b + c), normal = cross(b - a, c - a);
+    // The lowest corner: a wall in one piece from eaves to street says where the street is.
+    take(Sample{xy(centre), std::min({a.z, b.z, c.z}), length(normal) / 2}, normal);
+  }
+}
 
 }  // namespace
 
@@ -83,22 +107,16 @@ auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Po
   std::vector<std::vector<Sample>> out(count);
   base::parallel_for(count, [&](std::size_t i) {
     if (boxes[i].empty()) return;
-    Obstacles obstacles;
+    Obstacles obstacles{options.overhang, {}, {}};
     auto at =
         std::ranges::lower_bound(order, boxes[i].least.x - widest, {}, [&](std::size_t j) { return boxes[j].least.x; });
     for (; at != order.end() && boxes[*at].least.x <= boxes[i].most.x; ++at)
-      if (boxes[*at].overlaps(boxes[i]))
-        for (const auto& polygon : shapes[*at]) {
-          obstacles.polygons.push_back(&polygon);
-          obstacles.boxes.push_back(geometry::bounds(polygon.outer));
-        }
+      if (boxes[*at].overlaps(boxes[i])) obstacles.add(shapes[*at]);
     const Nearness near(shapes[i], reach);
     for (const std::uint32_t index : triangles[i]) {
       const auto& t = mesh.triangles[index];
       const Triangle3 corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-      const Point3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-      // Upside down is as good: orientation is not to be relied on.
-      if (normal.z * normal.z < options.ground_cosine * options.ground_cosine * dot(normal, normal)) continue;
+      if (is_steep(cross(corners[1] - corners[0], corners[2] - corners[0]), options)) continue;
       cut_up(corners, boxes[i], options.ground_piece, most_halvings, [&](const Triangle3& piece) {
         const Point3 centre = (1.0 / 3) * (piece[0] + piece[1] + piece[2]);
         if (!near(xy(centre)) || obstacles.hold(xy(centre))) return;
@@ -135,12 +153,22 @@ auto terrain_along(const model::HeightGrid& terrain, const std::vector<Polygon>&
 auto surface_samples(const geometry::Mesh& mesh) -> std::vector<Sample> {
   std::vector<Sample> out;
   out.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
-    const Point3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
-    const Point3 centre = (1.0 / 3) * (a + b + c);
-    // The lowest corner: a wall in one piece from eaves to street says where the street is.
-    out.push_back({xy(centre), std::min({a.z, b.z, c.z}), length(cross(b - a, c - a)) / 2});
-  }
+  each_sample(mesh, [&](const Sample& sample, Point3) { out.push_back(sample); });
+  return out;
+}
+
+auto beside_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Polygon>>& shapes,
+                    const std::vector<Polygon>& outline, const Options& options) -> std::vector<Sample> {
+  Obstacles obstacles{options.overhang, {}, {}};
+  for (const auto& shape : shapes) obstacles.add(shape);
+  const auto on_outline = [&](Point2 p) {
+    return std::ranges::any_of(
+        outline, [&](const Polygon& polygon) { return geometry::boundary_distance(polygon, p) < options.overhang; });
+  };
+  std::vector<Sample> out;
+  each_sample(mesh, [&](const Sample& sample, Point3 normal) {
+    if (!obstacles.hold(sample.at) || (is_steep(normal, options) && on_outline(sample.at))) out.push_back(sample);
+  });
   return out;
 }
 

@@ -21,7 +21,7 @@ struct Sample {
 [[nodiscard]] auto percentile(std::vector<Sample> samples, double share, double least) -> std::optional<double>;
 
 /// What may be ground within the ring of each of the first `count` shapes (polygons of one footprint): small pieces of
-/// triangles that are not steep, outside all shapes. One list per shape, in the order of the mesh.
+/// triangles that are not steep, farther than Options::overhang from all shapes. One list per shape, in the order of the mesh.
 [[nodiscard]] auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<geometry::Polygon>>& shapes,
                                   std::size_t count, const Options& options) -> std::vector<std::vector<Sample>>;
 
@@ -31,7 +31,13 @@ struct Sample {
 [[nodiscard]] auto terrain_along(const model::HeightGrid& terrain, const std::vector<geometry::Polygon>& shape,
                                  geometry::Point3 origin, const Options& options) -> std::optional<double>;
 
-/// One sample per triangle of the whole mesh, by its area in space: walls count too.
+/// One sample per triangle of the whole mesh, at its lowest corner and by its area in space: walls count too.
 [[nodiscard]] auto surface_samples(const geometry::Mesh& mesh) -> std::vector<Sample>;
+
+/// Those of triangles that are no roof: farther than Options::overhang from all shapes, or steep and as near to the
+/// boundary of `outline`.
+[[nodiscard]] auto beside_samples(const geometry::Mesh& mesh, const std::vector<std::vector<geometry::Polygon>>& shapes,
+                                  const std::vector<geometry::Polygon>& outline, const Options& options)
+    -> std::vector<Sample>;
 
 }  // namespace mansard::block::detail

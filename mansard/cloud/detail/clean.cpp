@@ -226,44 +226,6 @@ void fill_holes(Grid& grid, const Options& options, Counts& counts) {
   put(grid, fills, counts);
 }
 
-/// Where buildings end at an area without points (water, shadow), their walls go down to the ground: the cells along
-/// them get its height. Not in holes of a roof, which have building on opposite sides.
-void continue_ground(Grid& grid, const Options& options, Counts& counts) {
-  constexpr std::int64_t across = 12;  // cells: half a court that is seen as a hole
-  const auto is_building = [&](Cell c) {
-    return Grid::inside(c.first, c.second) && grid.at(c.first, c.second).building;
-  };
-  std::vector<Cell> open;
-  each_cell([&](std::int64_t column, std::int64_t row) {
-    if (grid.at(column, row).points > 0) return;
-    if (!std::ranges::any_of(around, [&](Cell d) { return is_building({column + d.first, row + d.second}); })) return;
-    const auto meets = [&](Cell direction) {
-      for (std::int64_t k = 1; k <= across; ++k) {
-        const Cell at{column + k * direction.first, row + k * direction.second};
-        if (is_building(at)) return true;
-        if (!Grid::inside(at.first, at.second) || grid.at(at.first, at.second).points > 0) return false;
-      }
-      return false;
-    };
-    int enclosed = 0;
-    for (const Cell& d : {Cell{1, 0}, Cell{0, 1}, Cell{1, 1}, Cell{1, -1}})
-      enclosed += meets(d) && meets({-d.first, -d.second}) ? 1 : 0;
-    if (enclosed < 2) open.emplace_back(column, row);
-  });
-  if (open.empty()) return;
-  const auto ground = grid.lowest_ground(static_cast<std::int64_t>(halo / 2));
-  std::vector<Fill> fills;
-  for (const auto& c : open) {
-    const double z = ground[Grid::index(c.first, c.second)];
-    bool below = !std::isnan(z);
-    for (const auto& [dx, dy] : around)
-      if (is_building({c.first + dx, c.second + dy}))
-        below = below && grid.at(c.first + dx, c.second + dy).z - z > options.step;
-    if (below) fills.push_back({c, z, false});
-  }
-  put(grid, fills, counts);
-}
-
 }  // namespace
 
 void clean(Grid& grid, const Options& options, Counts& counts) {
@@ -272,7 +234,6 @@ void clean(Grid& grid, const Options& options, Counts& counts) {
     lower_where(grid, options.step, 2, counts.rough, [&](Cell cell) { return is_rough(grid, cell, options); });
   remove_isolated(grid, options, counts);
   fill_holes(grid, options, counts);
-  if (grid.buildings() == Buildings::by_class) continue_ground(grid, options, counts);
   each_cell([&](std::int64_t column, std::int64_t row) {
     counts.cells += in_tile({column, row}) && grid.at(column, row).points > 0 ? 1 : 0;
   });

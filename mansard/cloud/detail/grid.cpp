@@ -109,28 +109,4 @@ void Grid::lower(std::int64_t column, std::int64_t row, double step) {
   height = layer_below(index(column, row), height.least, static_cast<std::int64_t>(step * per_metre), true);
 }
 
-auto Grid::lowest_ground(std::int64_t reach) const -> std::vector<double> {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  std::vector<double> own(heights_.size(), none), along(heights_.size(), none);
-  for (std::size_t i = 0; i < own.size(); ++i)
-    for (std::uint32_t k = starts_[i]; k < starts_[i + 1]; ++k)
-      if (const auto& p = points_[k]; p.classification == ground || p.classification == water)
-        own[i] = std::min(own[i], static_cast<double>(p.z) / per_metre);
-  const auto lowest = [&](const std::vector<double>& from, std::vector<double>& to, bool rows) {
-    for (std::int64_t row = 0; row < window; ++row)
-      for (std::int64_t column = 0; column < window; ++column) {
-        const std::int64_t at = rows ? column : row;
-        double least = none;
-        for (auto k = std::max<std::int64_t>(at - reach, 0); k <= std::min(at + reach, window - 1); ++k)
-          least = std::min(least, from[rows ? index(k, row) : index(column, k)]);
-        to[index(column, row)] = least;
-      }
-  };
-  lowest(own, along, true);
-  lowest(along, own, false);
-  for (double& z : own)
-    if (z == none) z = std::numeric_limits<double>::quiet_NaN();
-  return own;
-}
-
 }  // namespace mansard::cloud::detail

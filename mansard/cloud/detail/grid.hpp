@@ -53,9 +53,6 @@ class Grid {
   }
   [[nodiscard]] auto side() const -> double { return static_cast<double>(cell_) / per_metre; }
   [[nodiscard]] auto buildings() const -> Buildings { return buildings_; }
-  /// The lowest point of ground or water in the cells that are no more than `reach` cells away, along rows and columns;
-  /// NaN where there is none.
-  [[nodiscard]] auto lowest_ground(std::int64_t reach) const -> std::vector<double>;
 
   /// Gives every cell the height of one layer: points without a gap of `step` between them. By class, it is the highest
   /// of which most points are of a building, else the one with most points, the higher of two with as many; by `top`,

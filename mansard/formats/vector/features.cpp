@@ -128,6 +128,13 @@ void add_ring(const OGRLinearRing& ring, RawPolygon& polygon) {
   polygon.push_back(std::move(points));
 }
 
+/// Many files have a z that nobody measured, and it is 0.
+void add_heights(const OGRLinearRing& ring, RawFeature& feature) {
+  if (!ring.Is3D()) return;
+  for (int i = 0; i < ring.getNumPoints(); ++i)
+    if (const double z = ring.getZ(i); std::isfinite(z) && z != 0) feature.lowest = std::min(z, feature.lowest.value_or(z));
+}
+
 /// Polygons from whatever holds polygons. Surfaces in space (TIN and the like) are no footprints.
 void collect(const OGRGeometry& geometry, RawFeature& feature) {
   const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
@@ -138,6 +145,7 @@ void collect(const OGRGeometry& geometry, RawFeature& feature) {
     add_ring(*polygon->getExteriorRing(), raw);
     for (int i = 0; i < polygon->getNumInteriorRings(); ++i) add_ring(*polygon->getInteriorRing(i), raw);
     feature.parts.push_back(std::move(raw));
+    add_heights(*polygon->getExteriorRing(), feature);
   } else if (type == wkbMultiPolygon || type == wkbGeometryCollection) {
     for (const OGRGeometry* part : *geometry.toGeometryCollection()) collect(*part, feature);
   } else {

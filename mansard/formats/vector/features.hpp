@@ -25,6 +25,7 @@ struct RawFeature {
   std::string own_id;       ///< where the kind of source itself has names for its features; else empty
   model::Attributes attributes;
   std::vector<RawPolygon> parts;
+  std::optional<double> lowest;  ///< z of the lowest corner; none in two dimensions, and where all are 0
   std::string geometry;         ///< what kind it has in the source, "NONE" for none
   bool other_geometry = false;  ///< there are points, lines or solids in it
   std::string failure;          ///< what went wrong when it was read; empty for nothing
@@ -50,7 +51,8 @@ struct FeatureQuery {
   std::array<double, 4> bbox{0, 0, 0, 0};  ///< xmin ymin xmax ymax; all zero: everything
 };
 
-/// Reads the chosen layer of any OGR vector source: polygons with curves as segments and without heights. With
+/// Reads the chosen layer of any OGR vector source: polygons with curves as segments, and of
+/// their heights the lowest. With
 /// `options.bbox`, features that cannot meet it may be left out already, but never all. A database and what lies on a
 /// server is known by the hash of its features, in the order of their numbers.
 /// Fails with "file-missing", "file-read", "ingest-footprints-format", "ingest-footprints-none",

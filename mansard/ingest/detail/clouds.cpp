@@ -328,6 +328,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
                        subject);
   out.ground = cloud::join(grounds, options_.cloud.ground_reach);
   for (auto& tile : grounds) tile.heights = {};
+  out.roofs_only = clouds.size() == sources_.size() && counts.tiles_by_shape == 0 && !cloud::any_ground(counts.classes);
   out.counted = std::move(grounds);
   warnings_.push_back(base::warning(
       "ingest-points-surface",

@@ -132,13 +132,14 @@ void add_attributes(model::Building& building, const report::BuildingReport& rep
   auto own = report::building_measures(building, z0, options.roof.level_height);
   attributes.emplace_back("ms_outcome", outcome);
   attributes.emplace_back("ms_success", report.parts > 0);
-  attributes.emplace_back("ms_quality", report::quality_of(outcome, measures));
+  attributes.emplace_back("ms_quality", report::quality_of(outcome, measures, report.ground_source));
   if (!options.survey_source.empty()) attributes.emplace_back("ms_source", options.survey_source);
   if (!options.survey_date.empty()) attributes.emplace_back("ms_source_date", options.survey_date);
   std::ranges::move(own, std::back_inserter(attributes));
   attributes.insert(attributes.end(), measures.begin(), measures.end());
   if (report.parts == 0) return report::round_measures(attributes);
   attributes.emplace_back("ms_h_ground", report.ground);
+  attributes.emplace_back("ms_ground_source", report.ground_source);
   attributes.emplace_back("ms_h_roof_max", report.roof_max);
   attributes.emplace_back("ms_volume_lod22", report.volume);
   if (report.rmse) attributes.emplace_back("ms_rmse_lod22", *report.rmse);
@@ -147,6 +148,21 @@ void add_attributes(model::Building& building, const report::BuildingReport& rep
 }
 
 namespace {
+
+/// Why the height of a building's ground is less sure than others; none where something shows it.
+auto doubt_of(block::GroundSource source) -> std::optional<base::Diagnostic> {
+  using enum block::GroundSource;
+  if (source == lowest)
+    return base::warning("block-ground-unseen",
+                         "the scan shows no level ground around this building; its base is the lowest surface beside "
+                         "it, and may be too high. Give a terrain model (--dtm) or --ground-height");
+  if (source == assumed)
+    return base::warning("block-ground-assumed",
+                         "nothing shows the ground here; its base is assumed to be a storey below the lowest roof. "
+                         "Heights above ground and volumes are not measured. Give a terrain model (--dtm), "
+                         "--ground-attribute or --ground-height");
+  return std::nullopt;
+}
 
 /// A feature before anything is made of it.
 auto begun(const model::Scene& scene, std::size_t feature) -> Finished {
@@ -175,11 +191,12 @@ auto finish_block(const model::Scene& scene, BlockResult& result, const Options&
                   std::vector<base::Diagnostic>& warnings) -> std::vector<std::pair<std::size_t, Finished>> {
   const auto z0 = static_cast<double>(scene.frame.origin[2]);
   std::vector<std::pair<std::size_t, Finished>> out;
-  for (const auto& [feature, ground] : result.grounds) {
+  for (const auto& [feature, ground, source] : result.grounds) {
     auto& [building, report] = out.emplace_back(feature, begun(scene, feature)).second;
     report.block = result.report.name;
     report.ground = z0 + ground;
     building.ground = ground;
+    report.ground_source = block::to_string(source);
   }
   std::vector<Account> accounts(out.size());
   const auto place_of = [&](std::size_t feature) {
@@ -208,6 +225,11 @@ auto finish_block(const model::Scene& scene, BlockResult& result, const Options&
     report.left_out = one.area;
     report.reasons.push_back(base::warning("pipeline-left-out", one.what, report.id));
   }
+  for (auto& [f, doubt] : result.doubts) {
+    auto& report = finished(f).report;
+    doubt.subject = report.id;
+    report.reasons.push_back(std::move(doubt));
+  }
   for (auto& [f, warning] : result.unchecked) {
     auto& report = finished(f).report;
     warning.subject = report.id;
@@ -217,6 +239,10 @@ auto finish_block(const model::Scene& scene, BlockResult& result, const Options&
   warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
   for (std::size_t i = 0; i < out.size(); ++i) {
     auto& [building, report] = out[i].second;
+    if (auto doubt = doubt_of(result.grounds[i].source); doubt && report.parts > 0) {
+      doubt->subject = report.id;
+      report.reasons.push_back(*std::move(doubt));
+    }
     if (accounts[i].area > 0) report.rmse = std::sqrt(accounts[i].squared / accounts[i].area);
     const auto known = std::ranges::find(result.measures, out[i].first, [](const auto& one) { return one.first; });
     add_attributes(building, report, known != result.measures.end() ? known->second : model::Attributes(), options, z0);

@@ -22,8 +22,10 @@ namespace {
 using geometry::Point2;
 using geometry::Polygon;
 
-auto no_mesh() -> base::Diagnostic {
-  return base::warning("pipeline-no-mesh", "the mesh shows nothing over this footprint; its height is assumed");
+auto no_mesh(const Options& options) -> base::Diagnostic {
+  return base::warning("pipeline-no-mesh", options.assumed_height > 0
+                                               ? "the scan shows nothing over this footprint; its height is assumed"
+                                               : "the scan shows nothing over this footprint");
 }
 
 /// The flat prism of a polygon at the median of the mesh's heights over it (sorted; assumed where there are none), and
@@ -72,13 +74,29 @@ auto raise_parts(const segment::Segmentation& segmentation, const Shown& shown, 
   base::Watch refining;
   std::vector<PartResult> parts;
   std::vector<refine::Draft> drafts;
-  std::vector<std::size_t> part_of_draft;
+  std::vector<std::size_t> part_of_draft, features;
+  std::vector<bool> seen;
+  for (const auto& source : segmentation.parts) {
+    features.push_back(source.feature.value_or(block.members.front().feature));
+    seen.push_back(!report::heights_over(shown.whole(), source.polygon, options.roof_grid).empty());
+  }
+  const auto is_seen_elsewhere = [&](std::size_t feature) {
+    for (std::size_t i = 0; i < features.size(); ++i)
+      if (seen[i] && features[i] == feature) return true;
+    return false;
+  };
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const auto& source = segmentation.parts[i];
-    const std::size_t feature = source.feature.value_or(block.members.front().feature);
-    if (report::heights_over(shown.whole(), source.polygon, options.roof_grid)
-            .empty()) {  // the footprints alone say there is a building
-      auto prism = plain_prism(feature, source.polygon, fitted[i].plan.base, {}, options, no_mesh(), run);
+    const std::size_t feature = features[i];
+    if (!seen[i]) {  // the footprints alone say there is a building
+      const bool elsewhere = is_seen_elsewhere(feature);
+      if (!elsewhere && options.assumed_height == 0) continue;
+      const auto why = elsewhere ? base::warning("pipeline-no-mesh",
+                                                 "the scan shows nothing over a part of this footprint, which is as "
+                                                 "high as the part beside it")
+                                 : no_mesh(options);
+      const auto heights = elsewhere ? std::vector<double>{source.height} : std::vector<double>();
+      auto prism = plain_prism(feature, source.polygon, fitted[i].plan.base, heights, options, why, run);
       if (prism) parts.push_back(std::move(*prism));
       else out.warnings.push_back(not_raised(prism.error(), block, i));
       continue;
@@ -117,10 +135,14 @@ void fill_in(const block::Block& block, const rays::Scene& mesh, const Options& 
     std::optional<base::Diagnostic> failure;
     for (const auto& polygon : left.polygons) {
       const auto heights = report::heights_over(mesh, polygon, options.roof_grid);
+      if (heights.empty() && options.assumed_height == 0) {
+        failure = no_mesh(options);
+        continue;
+      }
       const bool low =
           !heights.empty() && base::percentile_of_sorted(heights, 0.5) - member.ground < options.segment.min_height;
       const auto why =
-          heights.empty() ? no_mesh()
+          heights.empty() ? no_mesh(options)
           : block_failure ? *block_failure
           : low ? base::warning("pipeline-low", "the mesh is under segment.min_height here; raised as a prism")
                 : base::warning("pipeline-outside", "no face of the fractured ground is its; raised as a prism");
@@ -251,6 +273,29 @@ auto measured(const block::Block& block, const rays::Scene& mesh, const rays::Sc
   return out;
 }
 
+/// Of every feature with a model, whether the scan misses more of it than the smallest detail.
+auto partly_seen(const block::Block& block, const Options& options, const BlockResult& result)
+    -> std::vector<std::pair<std::size_t, base::Diagnostic>> {
+  std::vector<std::pair<std::size_t, base::Diagnostic>> out;
+  for (const auto& [feature, attributes] : result.measures) {
+    const auto number = [&](std::string_view name) {
+      const auto at = std::ranges::find(attributes, name, &model::Attributes::value_type::first);
+      const auto* value = at == attributes.end() ? nullptr : std::get_if<double>(&at->second);
+      return value == nullptr ? 0.0 : *value;
+    };
+    const auto made = std::ranges::find(result.solids, feature, &std::pair<std::size_t, SolidsOf>::first);
+    if (made == result.solids.end()) continue;
+    double area = 0;
+    for (const auto& polygon : block.members[feature].polygons) area += geometry::area(polygon);
+    const double share = number("ms_nodata_share");
+    if (share < options.partly_seen || share * area < options.refine.least_area) continue;
+    out.emplace_back(feature, base::warning("pipeline-partly-seen",
+                                            "the scan shows nothing over " + base::to_text(100 * share, 0) +
+                                                " % of the footprint; the roof there is continued from what it shows"));
+  }
+  return out;
+}
+
 }  // namespace
 
 auto is_another(const model::Solid& moved, const model::Solid& before, double most) -> bool {
@@ -302,6 +347,7 @@ auto run_block(const block::Block& block, const Options& asked, const base::Run&
                        [&] { return with_overhangs(shown.block().mesh, options, run, parts, std::move(out.solids)); });
   out.measures =
       stage("measure", tell, report, [&] { return measured(block, mesh, shown.mesh(), parts, out.solids, options); });
+  out.doubts = partly_seen(block, options, out);
 
   std::vector<model::LabelledSolid> models;
   std::vector<Polygon> footprints;

@@ -49,8 +49,12 @@ struct PartResult {
 
 struct BlockResult {
   report::BlockReport report;
-  std::vector<std::pair<std::size_t, double>>
-      grounds;                    ///< every feature, ascending, with z of its ground; set when placed
+  struct Ground {
+    std::size_t feature = 0;
+    double z = 0;
+    block::GroundSource source = block::GroundSource::unknown;
+  };
+  std::vector<Ground> grounds;    ///< of every feature, ascending; set when placed
   std::vector<PartResult> parts;  ///< by feature
   std::vector<std::pair<std::size_t, SolidsOf>> solids;  ///< by feature; numbers of parts count the feature's own
   evaluate::ErrorMap map;
@@ -59,6 +63,8 @@ struct BlockResult {
   std::vector<std::pair<std::size_t, base::Diagnostic>> failed;
   /// Features whose ground could not be told from that of their neighbours' parts, and why.
   std::vector<std::pair<std::size_t, base::Diagnostic>> unchecked;
+  /// Features whose model is less sure than others, and why.
+  std::vector<std::pair<std::size_t, base::Diagnostic>> doubts;
   /// Features with ground that is high enough for a building and has no model.
   struct LeftOut {
     std::size_t feature = 0;

@@ -104,6 +104,7 @@ auto part_of(const model::Scene& scene, std::span<const block::Group* const> gro
   Part out;
   out.scene.frame = scene.frame;
   out.scene.terrain = scene.terrain;
+  out.scene.roofs_only = scene.roofs_only;
   // Group by group: the box of several may span the city where the order by place jumps.
   std::vector<std::size_t> own, near;
   for (const auto* group : groups) {
@@ -125,6 +126,7 @@ auto part_of(const model::Scene& scene, std::span<const block::Group* const> gro
     model::Footprint shape;
     shape.id = feature.id;
     shape.polygons = feature.polygons;
+    shape.defect = feature.defect;
     if (attributes_around) shape.attributes = feature.attributes;
     out.features.push_back(f);
     out.scene.surroundings.push_back(std::move(shape));

@@ -114,7 +114,8 @@ auto Maker::made(const block::Block& block, const base::Run& run, const Tell& te
   } else {
     result = refused(block, options_.block);
   }
-  for (const auto& member : block.members) result.grounds.emplace_back(member.feature, member.ground);
+  for (const auto& member : block.members)
+    result.grounds.push_back({member.feature, member.ground, member.ground_source});
   return result;
 }
 

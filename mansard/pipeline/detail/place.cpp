@@ -98,6 +98,7 @@ void place(BlockResult& result, const block::OwnFrame& frame) {
   for (auto& feature : result.covered) way.number(feature);
   for (auto& [feature, why] : result.failed) way.number(feature);
   for (auto& [feature, why] : result.unchecked) way.number(feature);
+  for (auto& [feature, why] : result.doubts) way.number(feature);
   for (auto& one : result.left_out) way.number(one.feature);
   for (auto& [feature, attributes] : result.measures) way.number(feature);
   if (result.segmented) place(*result.segmented, frame);
