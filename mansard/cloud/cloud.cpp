@@ -74,7 +74,6 @@ void Counts::include(const Counts& o) {
   not_used += o.not_used;
   cells += o.cells;
   isolated += o.isolated;
-  rough += o.rough;
   filled += o.filled;
   tiles_by_class += o.tiles_by_class;
   tiles_by_shape += o.tiles_by_shape;
@@ -128,10 +127,6 @@ auto option_list(Options& o) -> base::OptionList {
       .number("gap_residual", o.gap_residual, "m", {0, 10},
               "Maximum root mean square distance of the rim of a hole from its plane for the hole to be filled.")
       .advanced("noise of LiDAR and roof tiles; not tuned")
-      .number("roughness", o.roughness, "m", {0, 10},
-              "Root mean square distance of a cell and those around it from their plane that is vegetation, where "
-              "buildings are found by shape.")
-      .advanced("between roof tiles (0.05) and crowns of trees (0.4 and more)")
       .number("wall_points", o.wall_points, "", {1, 1e6},
               "Minimum number of points on a wall for it to be where they are, not half-way between two cells.")
       .advanced("fewer are a sill or a pipe")

@@ -31,7 +31,7 @@ struct Sample {
 enum class Buildings : std::uint8_t {
   automatic,  ///< by class where a tile has class 6, else by shape
   by_class,   ///< class 6, and what can be ground
-  by_shape,   ///< all but vegetation, by class, returns and roughness
+  by_shape,   ///< all but vegetation, by class and returns
   top,        ///< none are told from anything else: the highest points of all classes
 };
 
@@ -48,7 +48,6 @@ struct Options {
   double isolated = 3.0;          ///< m²; patches that are smaller are removed
   double gap = 30.0;              ///< m²; holes that are no larger are filled, where their rim is of one height
   double gap_residual = 0.25;     ///< m; RMS of that rim around its plane
-  double roughness = 0.2;         ///< m; RMS around the plane through a cell's surroundings: more is vegetation
   double wall_points = 3;         ///< of points that a wall must have to be where they are, not half-way between cells
   double ground_reach = 12;       ///< m; so far heights of the ground are continued into areas without any
 };
@@ -63,7 +62,6 @@ struct Counts {
   std::uint64_t not_used = 0;  ///< of these: noise, or not finite
   std::uint64_t cells = 0;     ///< with a height
   std::uint64_t isolated = 0;  ///< cells that were emptied, or took their next lower height
-  std::uint64_t rough = 0;     ///< the same for roughness
   std::uint64_t filled = 0;    ///< empty cells that were filled
   std::uint64_t tiles_by_class = 0, tiles_by_shape = 0;
   std::uint64_t ground_cells = 0;  ///< of 1 m with points of class 2

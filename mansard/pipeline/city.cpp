@@ -13,6 +13,7 @@
 #include "mansard/pipeline/detail/city_tasks.hpp"
 #include "mansard/pipeline/detail/every_block.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
+#include "mansard/report/measures.hpp"
 
 namespace mansard::pipeline {
 
@@ -23,8 +24,10 @@ auto PutAside::each(const Visit& visit) const -> base::Result<void> {
     detail::Finished one;
     base::Unpacker from(*bytes);
     if (!from.take(one) || !from.done()) return detail::put_aside_changed();
-    if (const auto more = afterwards_.find(f); more != afterwards_.end())
+    if (const auto more = afterwards_.find(f); more != afterwards_.end()) {
       one.report.reasons.insert(one.report.reasons.end(), more->second.begin(), more->second.end());
+      report::set_reasons(one.building.attributes, one.report.reasons);
+    }
     if (auto visited = visit(std::move(one.building), std::move(one.report)); !visited) return visited;
   }
   return {};

@@ -38,10 +38,10 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
   own.integer("seed", options.seed, "", {0, 9e15}, "Seed of all sampling; the same seed gives the same bytes.")
       .alias("seed")
       .number("assumed_height", options.assumed_height, "m", {0, 100},
-              "Height of the prism of a footprint over which the scan shows nothing; 0 for none: the footprint is then "
+              "Height of the prism of a footprint that the scan does not cover; 0 for none: the footprint is then "
               "written without a model.")
       .number("partly_seen", options.partly_seen, "", {0, 1},
-              "Share of a footprint over which the scan shows nothing from which on a building is reported as partly "
+              "Minimum share of a footprint without scan for the building to be reported as partly "
               "seen.")
       .number("roof_grid", options.roof_grid, "m", {0.05, 5},
               "Sample spacing of the roof heights among the attributes.")
@@ -117,6 +117,7 @@ struct Removed {
 /// docs/decisions/0104 has the measurements.
 constexpr std::array removed{
     Removed{"block.gap_area", ""},
+    Removed{"cloud.roughness", ""},
     Removed{"extrude.eaves_min_soffit", ""},
     Removed{"extrude.eaves_mitre", ""},
     Removed{"extrude.lines_min_stretch", ""},
@@ -426,11 +427,12 @@ auto codes() -> std::vector<base::Code> {
        "Check the name of --ground-attribute; 'mansard info FOOTPRINTS' lists the attributes.", 3},
       {"pipeline-no-mesh",
        "The scan shows no surface over this footprint. It is written without a model (LoD 0), or as a prism of "
-       "pipeline.assumed_height where that is set. Where the scan shows another part of the building, the part is as high "
+       "pipeline.assumed_height where that is set. Where the scan shows another part of the building, the part is as "
+       "high "
        "as that.",
        "Use a scan that covers the footprint, or set pipeline.assumed_height.", 1},
       {"pipeline-partly-seen",
-       "The scan shows nothing over a part of the footprint. The roof there continues what is seen beside it.",
+       "The scan does not cover a part of the footprint. The roof there continues what is seen beside it.",
        "Look at the building, or use a scan that covers it. ms_nodata_share is the share without data.", 0},
       {"pipeline-low", "The mesh over this footprint is lower than segment.min_height above the ground.",
        "Lower segment.min_height if low buildings matter; the building is a prism of its median height.", 1},

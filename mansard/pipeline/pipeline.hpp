@@ -58,8 +58,8 @@ struct Options {
   terrain::Options terrain;
 
   std::int64_t seed = 1;
-  double partly_seen = 0.1;   ///< of a footprint: more without data is told
-  double assumed_height = 0;  ///< m; of the prism of a footprint over which the scan shows nothing; 0 for no prism
+  double partly_seen = 0.1;                ///< of a footprint: more without scan is reported
+  double assumed_height = 0;               ///< m; of the prism of a footprint that the scan does not cover; 0 for none
   double roof_grid = 0.5;                  ///< m; sampling of roof heights for attributes
   std::string survey_source, survey_date;  ///< of the scan, for the attributes of buildings; empty: not known
 };

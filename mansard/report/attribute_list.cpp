@@ -13,11 +13,15 @@ auto attributes() -> std::vector<formats::Attribute> {
   };
   add("ms_outcome", building, "string", "",
       "full: every part was extruded along its full profiles; fallback: some part is simpler; covered: its ground is "
-      "part of its neighbours' models; refused: the footprint cannot be used.");
+      "part of its neighbours' models; refused: the footprint cannot be used, or the scan does not cover it.");
   add("ms_success", building, "boolean", "", "Whether the building has a model.");
   add("ms_quality", building, "string", "",
-      "good: the outcome is full, every level of detail is valid, and the scan covers half of the footprint or more; "
-      "check: one of these is not so; none: it has no model.");
+      "good: the outcome is full, every level of detail is valid, the scan covers half of the footprint or more, and "
+      "something shows the ground; check: one of these is not so; none: it has no model.");
+  add("ms_reasons", building, "string", "",
+      "Why the building has no model, a simpler one, or one that is less sure, the main reason first; absent where "
+      "there "
+      "is nothing to say.");
   add("ms_source", building, "string", "", "The scan, as pipeline.survey_source names it; absent where that is empty.");
   add("ms_source_date", building, "string", "",
       "The date of the scan, as pipeline.survey_date gives it; absent where that is empty.");

@@ -335,6 +335,16 @@ auto coverage(const rays::Scene& mesh, std::span<const geometry::Polygon> polygo
           std::max(0.0, std::sqrt(widest(empty)) - 0.5) * grid};
 }
 
+void set_reasons(model::Attributes& attributes, const std::vector<base::Diagnostic>& reasons) {
+  std::erase_if(attributes, [](const auto& one) { return one.first == "ms_reasons"; });
+  if (reasons.empty()) return;
+  std::string words;
+  for (const auto& reason : reasons) words += (words.empty() ? "" : "; ") + reason.message;
+  auto at = std::ranges::find(attributes, "ms_quality", &model::Attributes::value_type::first);
+  if (at != attributes.end()) ++at;
+  attributes.emplace(at, "ms_reasons", std::move(words));
+}
+
 auto quality_of(std::string_view outcome, const model::Attributes& levels, std::string_view ground_source)
     -> std::string {
   if (outcome == "refused" || outcome == "covered") return "none";

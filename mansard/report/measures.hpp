@@ -40,6 +40,9 @@ struct Coverage {
 [[nodiscard]] auto coverage(const rays::Scene& mesh, std::span<const geometry::Polygon> polygons, double grid)
     -> Coverage;
 
+/// Sets ms_reasons, after ms_quality, to what the reasons say, the first one first; none where there is none.
+void set_reasons(model::Attributes& attributes, const std::vector<base::Diagnostic>& reasons);
+
 /// "good", "check" or "none": see the attribute ms_quality. `levels` has the attributes of level_measures.
 [[nodiscard]] auto quality_of(std::string_view outcome, const model::Attributes& levels,
                               std::string_view ground_source = {}) -> std::string;

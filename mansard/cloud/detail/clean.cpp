@@ -61,8 +61,7 @@ auto plane_through(const std::vector<const Height*>& heights) -> Plane {
 }
 
 /// Longest sides, in cells, of patches that are removed and of holes that are filled. With two rounds of the removal of
-/// vegetation and of patches, and the cells around a hole, no decision reaches beyond 2 + 2 · 9 + 17 = 37 cells,
-/// and meshing 2 more.
+/// patches, and the cells around a hole, no decision reaches beyond 2 · 9 + 17 = 35 cells, and meshing 2 more.
 constexpr std::int64_t longest_patch = 8, longest_hole = 16;
 
 /// The cells that are linked to each other, wherever there are no more than `most`; larger ones are left out. `is_in`
@@ -100,42 +99,6 @@ auto small_groups(std::span<const Cell> neighbours, std::size_t most, std::int64
 
 auto cells_of(double area, double side) -> std::size_t {
   return static_cast<std::size_t>(std::clamp(area / (side * side), 0.0, static_cast<double>(window)));
-}
-
-/// Vegetation: a cell whose surroundings of similar height are few, or far from a plane. Not where classes say
-/// building.
-auto is_rough(const Grid& grid, Cell cell, const Options& options) -> bool {
-  const auto& own = grid.at(cell.first, cell.second);
-  if (own.building) return false;
-  const double reach = std::max(options.step, options.step_slope * grid.side());
-  std::vector<const Height*> like{&own};
-  std::size_t present = 0;
-  for (const auto& [dx, dy] : around) {
-    if (!Grid::inside(cell.first + dx, cell.second + dy)) continue;
-    const auto& other = grid.at(cell.first + dx, cell.second + dy);
-    if (other.points == 0) continue;
-    ++present;
-    if (std::abs(other.z - own.z) <= reach) like.push_back(&other);
-  }
-  if (present < 4) return false;  // too little is known
-  if (like.size() < 4) return true;
-  return plane_through(like).rms > options.roughness;
-}
-
-/// Cells that `is_bad` names take their next lower height, all at once, as often as `rounds`.
-template <class Bad>
-void lower_where(Grid& grid, double step, int rounds, std::uint64_t& count, const Bad& is_bad) {
-  for (int round = 0; round < rounds; ++round) {
-    std::vector<Cell> bad;
-    each_cell([&](std::int64_t column, std::int64_t row) {
-      if (grid.at(column, row).points > 0 && is_bad(Cell{column, row})) bad.emplace_back(column, row);
-    });
-    if (bad.empty()) return;
-    for (const auto& c : bad) {
-      grid.lower(c.first, c.second, step);
-      count += in_tile(c) ? 1 : 0;
-    }
-  }
 }
 
 void remove_isolated(Grid& grid, const Options& options, Counts& counts) {
@@ -230,8 +193,6 @@ void fill_holes(Grid& grid, const Options& options, Counts& counts) {
 
 void clean(Grid& grid, const Options& options, Counts& counts) {
   grid.choose(options.step);
-  if (grid.buildings() == Buildings::by_shape)
-    lower_where(grid, options.step, 2, counts.rough, [&](Cell cell) { return is_rough(grid, cell, options); });
   remove_isolated(grid, options, counts);
   fill_holes(grid, options, counts);
   each_cell([&](std::int64_t column, std::int64_t row) {

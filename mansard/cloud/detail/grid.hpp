@@ -78,9 +78,10 @@ class Grid {
 /// Removes points that belong to no surface and fills small gaps; counts the cells of the tile itself.
 void clean(Grid& grid, const Options& options, Counts& counts);
 
-/// The surface of the tile's own cells, from the window's south-west corner, and the points that are on it.
+/// The surface of the tile's own cells, from the window's south-west corner, and its points.
 [[nodiscard]] auto mesh_of(const Grid& grid, const Options& options) -> geometry::Mesh;
-/// The points in the tile's own cells that are on the surface.
-[[nodiscard]] auto points_on_surface(const Grid& grid, const Options& options) -> std::vector<geometry::Point3>;
+/// The points in the tile's own cells, all that may be of a surface: those with another return below them are not in
+/// the grid where buildings are found by shape.
+[[nodiscard]] auto points_of(const Grid& grid) -> std::vector<geometry::Point3>;
 
 }  // namespace mansard::cloud::detail

@@ -180,29 +180,17 @@ class Mesher {
 
 auto mesh_of(const Grid& grid, const Options& options) -> geometry::Mesh {
   auto out = Mesher(grid, options).run();
-  out.points = points_on_surface(grid, options);
+  out.points = points_of(grid);
   return out;
 }
 
-/// Where classes say what is building and what is ground, all of these. Elsewhere a point is on the surface that its
-/// own cell or one beside it has at its height: at a step a cell has points of both sides. Others are on walls, on what
-/// was left out above the surface, or below it.
-auto points_on_surface(const Grid& grid, const Options& options) -> std::vector<Point3> {
-  const double near = std::min(options.step, options.step_slope * grid.side());
+auto points_of(const Grid& grid) -> std::vector<Point3> {
   std::vector<Point3> out;
   for (std::int64_t row = halo; row < halo + tile_cells; ++row)
     for (std::int64_t column = halo; column < halo + tile_cells; ++column)
-      for (const auto& p : grid.points_of(column, row)) {
-        const Point3 at{static_cast<double>(p.x) / per_metre, static_cast<double>(p.y) / per_metre,
-                        static_cast<double>(p.z) / per_metre};
-        bool on = grid.buildings() == Buildings::by_class;
-        for (std::int64_t dy = -1; dy <= 1 && !on; ++dy)
-          for (std::int64_t dx = -1; dx <= 1 && !on; ++dx) {
-            const auto& height = grid.at(column + dx, row + dy);
-            on = height.points > 0 && !height.filled && std::abs(height.z - at.z) <= near;
-          }
-        if (on) out.push_back(at);
-      }
+      for (const auto& p : grid.points_of(column, row))
+        out.push_back({static_cast<double>(p.x) / per_metre, static_cast<double>(p.y) / per_metre,
+                       static_cast<double>(p.z) / per_metre});
   return out;
 }
 

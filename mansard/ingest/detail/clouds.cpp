@@ -173,8 +173,8 @@ auto in_words(const cloud::Counts& counts, double density, double cell, bool gro
   return "a surface in cells of " + base::to_text(cell) + " m was made of " + std::to_string(counts.points) +
          " points (" + base::to_text(density, 1) + " points/m²): buildings by " + buildings + ", the ground " +
          (ground ? "by class 2" : "as the lowest of the surface") + "; of " + std::to_string(counts.cells) + " cells " +
-         percent(counts.filled, counts.cells) + " were filled, and " + std::to_string(counts.isolated + counts.rough) +
-         " heights were left out as isolated or as vegetation; classes read: " + classes;
+         percent(counts.filled, counts.cells) + " were filled, and " + std::to_string(counts.isolated) +
+         " heights were left out as isolated; classes read: " + classes;
 }
 
 }  // namespace

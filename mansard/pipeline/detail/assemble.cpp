@@ -133,6 +133,7 @@ void add_attributes(model::Building& building, const report::BuildingReport& rep
   attributes.emplace_back("ms_outcome", outcome);
   attributes.emplace_back("ms_success", report.parts > 0);
   attributes.emplace_back("ms_quality", report::quality_of(outcome, measures, report.ground_source));
+  report::set_reasons(attributes, report.reasons);
   if (!options.survey_source.empty()) attributes.emplace_back("ms_source", options.survey_source);
   if (!options.survey_date.empty()) attributes.emplace_back("ms_source_date", options.survey_date);
   std::ranges::move(own, std::back_inserter(attributes));

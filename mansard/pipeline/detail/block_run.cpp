@@ -24,8 +24,8 @@ using geometry::Polygon;
 
 auto no_mesh(const Options& options) -> base::Diagnostic {
   return base::warning("pipeline-no-mesh", options.assumed_height > 0
-                                               ? "the scan shows nothing over this footprint; its height is assumed"
-                                               : "the scan shows nothing over this footprint");
+                                               ? "the scan does not cover this footprint; its height is assumed"
+                                               : "the scan does not cover this footprint");
 }
 
 /// The flat prism of a polygon at the median of the mesh's heights over it (sorted; assumed where there are none), and
@@ -92,7 +92,7 @@ auto raise_parts(const segment::Segmentation& segmentation, const Shown& shown, 
       const bool elsewhere = is_seen_elsewhere(feature);
       if (!elsewhere && options.assumed_height == 0) continue;
       const auto why = elsewhere ? base::warning("pipeline-no-mesh",
-                                                 "the scan shows nothing over a part of this footprint, which is as "
+                                                 "the scan does not cover a part of this footprint, which is as "
                                                  "high as the part beside it")
                                  : no_mesh(options);
       const auto heights = elsewhere ? std::vector<double>{source.height} : std::vector<double>();
@@ -290,7 +290,7 @@ auto partly_seen(const block::Block& block, const Options& options, const BlockR
     const double share = number("ms_nodata_share");
     if (share < options.partly_seen || share * area < options.refine.least_area) continue;
     out.emplace_back(feature, base::warning("pipeline-partly-seen",
-                                            "the scan shows nothing over " + base::to_text(100 * share, 0) +
+                                            "the scan does not cover " + base::to_text(100 * share, 0) +
                                                 " % of the footprint; the roof there is continued from what it shows"));
   }
   return out;

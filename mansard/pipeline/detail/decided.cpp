@@ -43,7 +43,7 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.segment.by_points = scan.point_area > 0;
   if (o.segment.by_points) o.segment.rim = scan.spacing / 2;  // a wall is anywhere between two points
   else o.segment.rim = scan.edge() + scan.spacing / 2 * std::min(1.0, scan.noise / o.refine.detail);
-  // What no part of the mesh shows is as high as a footprint of which it shows nothing.
+  // What no part of the mesh shows is as high as a footprint that it does not cover.
   if (o.assumed_height > 0) o.profile.assumed_height = o.assumed_height;
   o.refine = refining_of(o, scan);
   return o;

@@ -13,6 +13,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/geometry/box_index.hpp"
 #include "mansard/geometry/change.hpp"
+#include "mansard/report/measures.hpp"
 
 namespace mansard::pipeline::detail {
 namespace {
@@ -282,7 +283,11 @@ auto overlaps(const std::vector<Extent>& solids, const LoadStanding& load, const
 
 void report_overlaps(report::Reconstruction& reconstruction, const base::Run& run) {
   auto [of_each, in_all, pairs] = overlaps(reconstruction.city.buildings, run);
-  for (auto& [building, what] : of_each) reconstruction.buildings[building].reasons.push_back(std::move(what));
+  for (auto& [building, what] : of_each) {
+    auto& reasons = reconstruction.buildings[building].reasons;
+    reasons.push_back(std::move(what));
+    report::set_reasons(reconstruction.city.buildings[building].attributes, reasons);
+  }
   for (auto& warning : in_all) reconstruction.warnings.push_back(std::move(warning));
   reconstruction.overlaps = std::move(pairs);
 }
