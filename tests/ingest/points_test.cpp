@@ -48,6 +48,26 @@ TEST_F(ReadPointsOfClass, fails_where_a_folder_cannot_be_listed) {
   EXPECT_EQ(points.error().subject, at("folder").string());
 }
 
+TEST_F(ReadPointsOfClass, takes_the_classes_that_the_options_name) {
+  const auto cloud = file("cloud.xyz", "x y z class\n1 2 3 67\n4 5 6 6\n7 8 9 2\n");
+  const auto z_of = [&](const char* buildings) {
+    Options options;
+    options.cloud.building_classes = buildings;
+    std::vector<double> out;
+    const auto points = read_points_of_class({cloud}, building, {}, options);
+    EXPECT_TRUE(points) << base::to_string(points.error());
+    if (points)
+      for (const auto& p : *points) out.push_back(p.z);
+    return out;
+  };
+  EXPECT_THAT(z_of("6"), testing::ElementsAre(6));
+  EXPECT_THAT(z_of("6,67"), testing::ElementsAre(3, 6));
+  EXPECT_THAT(z_of("67"), testing::ElementsAre(3));
+  Options wrong;
+  wrong.cloud.building_classes = "roofs";
+  EXPECT_EQ(read_points_of_class({cloud}, building, {}, wrong).error().code, "option-value");
+}
+
 /// Points of 16 to a square metre, text PLY.
 auto ply_of(const std::vector<geometry::Point3>& points) -> std::string {
   std::string out = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(points.size()) +
