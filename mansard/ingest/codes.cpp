@@ -32,7 +32,7 @@ auto own_codes() -> std::vector<base::Code> {
       {"ingest-points-truncated", "A point cloud ends before the points that its header counts.",
        "Copy or export it again.", 3},
       {"ingest-points-unsupported", "A point cloud uses a version or a part of its format that is not read.",
-       "Convert it to LAS 1.4 or LAZ with point formats 0 to 3 or 6 to 8.", 3},
+       "Convert it to LAS 1.4 or LAZ with point formats 0 to 3 or 6 to 10.", 3},
       {"ingest-points-empty", "Point clouds have no points that can be used, or none in the box asked for.",
        "Check --bbox, --crs and the classes of the points.", 3},
       {"ingest-points-records", "Records in the header of a point cloud are damaged and were left out.",
