@@ -45,6 +45,11 @@ auto own_codes() -> std::vector<base::Code> {
        "Ask the cloud's producer what they mean, and name them with --cloud-building-classes, --cloud-ground-classes "
        "or --cloud-left-out-classes.",
        0},
+      {"ingest-points-twice",
+       "Points are repeated in the point clouds: the same tile was given twice, deliveries overlap, or a file has "
+       "points "
+       "twice. A point that was measured once counts once.",
+       "Nothing to do; leaving the repetitions out saves time.", 0},
       {"ingest-points-surface", "How a surface was made of point clouds.",
        "Nothing to do; the options of the group cloud change it.", 0},
       {"ingest-raster", "A raster has no heights that can be used, has no georeference, or is in another place.",

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "ingest/workshop.hpp"
+#include "mansard/formats/las_points.hpp"
 
 namespace mansard::ingest {
 namespace {
@@ -166,6 +167,110 @@ TEST_F(CloudClasses, are_buildings_where_they_are_said_to_be) {
   const auto wrong = read("6;67");
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().code, "option-value");
+}
+
+/// A house on ground, whose points are in several files.
+class CloudsTwice : public test::Workshop {
+ protected:
+  using Points = std::vector<formats::CloudPoint>;
+  /// 4 points/m² on 40 m by 40 m, at places that are no grid.
+  static auto house() -> Points {
+    Points out;
+    for (int row = 0; row < 80; ++row)
+      for (int column = 0; column < 80; ++column) {
+        auto& p = out.emplace_back();
+        const double x = 0.5 * column + 0.004 * ((7 * row + 3 * column) % 100), y = 0.5 * row + 0.004 * (column % 100);
+        const bool roof = x > 10 && x < 30 && y > 10 && y < 25;
+        p.position = {x, y, roof ? 6 - 0.1 * std::round(10 * std::abs(y - 17)) / 10 : 0.01 * (row % 3)};  // as LAS has
+        p.classification = roof ? 6 : 2;
+      }
+    return out;
+  }
+  [[nodiscard]] auto las(const std::string& name, const Points& points) const -> fs::path {
+    const auto bytes = formats::las(points, {});
+    EXPECT_TRUE(bytes);
+    return file(name, *bytes);
+  }
+  [[nodiscard]] auto xyz(const std::string& name, const Points& points) const -> fs::path {
+    std::string out = "x y z class\n";
+    for (const auto& p : points)
+      out += base::to_text(p.position.x) + " " + base::to_text(p.position.y) + " " + base::to_text(p.position.z) + " " +
+             std::to_string(p.classification) + "\n";
+    return file(name, out);
+  }
+  struct Read {
+    model::Scene scene;
+    std::map<std::string, std::string> warnings;
+  };
+  static auto read_clouds(const std::vector<fs::path>& clouds) -> Read {
+    Options options;
+    options.crs = "local";
+    auto scene = read_scene(clouds, {}, options);
+    EXPECT_TRUE(scene) << base::to_string(scene.error());
+    Read out;
+    for (const auto& warning : scene->warnings) out.warnings[warning.code] = warning.message;
+    out.scene = std::move(*scene);
+    return out;
+  }
+  static void expect_same(const Read& made, const Read& expected) {
+    EXPECT_EQ(made.scene.mesh.vertices, expected.scene.mesh.vertices);
+    EXPECT_EQ(made.scene.mesh.triangles, expected.scene.mesh.triangles);
+    EXPECT_EQ(made.scene.mesh.points, expected.scene.mesh.points);
+    // The cells, and how many points there are.
+    const auto until = [](const std::string& text) { return text.substr(0, text.find(" (")); };
+    EXPECT_EQ(until(made.warnings.at("ingest-points-surface")), until(expected.warnings.at("ingest-points-surface")));
+  }
+};
+
+TEST_F(CloudsTwice, are_one_cloud_and_both_files_are_named) {
+  const auto points = house();
+  const auto once = read_clouds({las("a.las", points)});
+  EXPECT_FALSE(once.warnings.contains("ingest-points-twice"));
+  auto turned = points;
+  std::ranges::reverse(turned);
+  const auto twice = read_clouds({at("a.las"), las("b.las", turned)});
+  expect_same(twice, once);
+  EXPECT_THAT(twice.warnings.at("ingest-points-twice"),
+              testing::HasSubstr(at("a.las").string() + " and " + at("b.las").string() +
+                                 " have the same points; 6400 of 12800 points (50.0 %)"));
+  const auto thrice = read_clouds({at("a.las"), at("b.las"), xyz("c.xyz", points)});
+  expect_same(thrice, once);
+  EXPECT_THAT(thrice.warnings.at("ingest-points-twice"), testing::HasSubstr(at("c.xyz").string() + " have the same"));
+  const auto same_file = read_clouds({at("a.las"), at("a.las")});
+  expect_same(same_file, once);
+  EXPECT_TRUE(same_file.warnings.contains("ingest-points-twice"));
+}
+
+TEST_F(CloudsTwice, that_overlap_have_each_point_once_and_the_share_is_said) {
+  const auto points = house();
+  const auto once = read_clouds({las("a.las", points)});
+  Points west, east;
+  for (const auto& p : points) {
+    if (p.position.x < 25) west.push_back(p);
+    if (p.position.x > 20) east.push_back(p);
+  }
+  const auto both = read_clouds({las("west.las", west), las("east.las", east)});
+  expect_same(both, once);
+  const auto& said = both.warnings.at("ingest-points-twice");
+  EXPECT_THAT(said, testing::HasSubstr(std::to_string(west.size() + east.size() - points.size()) + " of " +
+                                       std::to_string(west.size() + east.size()) + " points (11.1 %)"));
+  EXPECT_THAT(said, testing::HasSubstr("clouds overlap, or a file has points twice"));
+}
+
+TEST_F(CloudsTwice, in_one_file_have_the_density_of_one) {
+  // 1.3 points/m²: twice as many would make cells of 0.5 m instead of 1 m.
+  auto points = house();
+  std::erase_if(points, [i = 0](const auto&) mutable { return i++ % 3 != 0; });
+  const auto once = read_clouds({las("a.las", points)});
+  auto twice = points;
+  twice.insert(twice.end(), points.begin(), points.end());
+  expect_same(read_clouds({las("b.las", twice)}), once);
+}
+
+TEST_F(CloudsTwice, are_not_found_where_a_few_points_are_at_one_place_by_accident) {
+  auto points = house();
+  points.insert(points.end(), points.begin(), points.begin() + 60);
+  EXPECT_FALSE(read_clouds({las("a.las", points)}).warnings.contains("ingest-points-twice"));
 }
 
 /// Why a cloud is none that can be used.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <tuple>
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/base/stopped.hpp"
@@ -11,6 +12,7 @@
 #include "mansard/cloud/cloud.hpp"
 #include "mansard/ingest/detail/cloud_pieces.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
+#include "mansard/ingest/detail/same_clouds.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
@@ -49,18 +51,51 @@ auto measured(const formats::PointCloud& cloud, const base::Run& run) -> base::R
   return all;
 }
 
+struct InSquare {
+  double column = 0, row = 0;  ///< of a square of a metre
+  Point3 at;
+};
+
+/// What some pieces of a cloud show of its density.
+struct Seen {
+  double density = 0;  ///< points/m²; 0 where they say nothing
+  std::uint64_t points = 0, repeated = 0;
+
+  [[nodiscard]] auto share_of_once() const -> double {
+    return points == 0 ? 1 : static_cast<double>(points - repeated) / static_cast<double>(points);
+  }
+};
+
+/// The median over the squares that have points. A point counts once.
+auto density_in_squares(std::vector<InSquare> points, Seen& seen) -> double {
+  const auto key = [](const InSquare& p) { return std::tie(p.column, p.row, p.at.x, p.at.y, p.at.z); };
+  std::ranges::sort(points, {}, key);
+  const auto again = std::ranges::unique(points, {}, key);
+  seen.points += points.size();
+  seen.repeated += again.size();
+  points.erase(again.begin(), again.end());
+  const auto square = [](const InSquare& p) { return std::tie(p.column, p.row); };
+  std::vector<double> counts;
+  for (auto at = points.begin(); at != points.end();) {
+    const auto end = std::ranges::upper_bound(at, points.end(), square(*at), {}, square);
+    counts.push_back(static_cast<double>(end - at));
+    at = end;
+  }
+  return base::median(std::move(counts));
+}
+
 /// Clouds are often cut out along a street, or of one building: the box around them is mostly empty then. Points in
 /// a square of a metre that has any, the median: edges and single points in the air count little. Of some pieces of the
 /// cloud, evenly spaced. Pieces with a box are levels of an index, each with a part of the points at its place, and say
-/// nothing: 0.
+/// nothing.
 auto density_where_points_are(const formats::PointCloud& cloud, const std::optional<crs::WayOfMesh>& way,
-                              const base::Run& run) -> base::Result<double> {
+                              const base::Run& run) -> base::Result<Seen> {
   // Pieces of 50,000 points in most files. Of a file with few, all of them together: strips that overlap follow each
   // other in it. Of others some, each for itself.
   constexpr std::size_t few = 8, some = 4;
   const bool together = cloud.pieces() <= few;
   const std::size_t most = together ? cloud.pieces() : some;
-  std::vector<std::vector<std::array<double, 2>>> squares(most);
+  std::vector<std::vector<InSquare>> squares(most);
   std::vector<std::optional<base::Failure>> failures(most);
   base::parallel_for(most, [&](std::size_t k) {
     const std::size_t piece = k * cloud.pieces() / most;
@@ -75,28 +110,21 @@ auto density_where_points_are(const formats::PointCloud& cloud, const std::optio
       if (finite(p.position)) positions.push_back(p.position);
     if (way) way->take(positions);
     squares[k].reserve(positions.size());
-    for (const auto& p : positions) squares[k].push_back({std::floor(p.x), std::floor(p.y)});
+    for (const auto& p : positions) squares[k].push_back({std::floor(p.x), std::floor(p.y), p});
   });
   for (const auto& failure : failures)
     if (failure) return *failure;
   if (together) {
-    std::vector<std::array<double, 2>> all;
+    std::vector<InSquare> all;
     for (const auto& piece : squares) all.insert(all.end(), piece.begin(), piece.end());
     squares.assign(1, std::move(all));
   }
+  Seen seen;
   std::vector<double> densities;
-  for (auto& piece : squares) {
-    if (piece.empty()) continue;
-    std::ranges::sort(piece);
-    std::vector<double> counts;
-    for (auto at = piece.begin(); at != piece.end();) {
-      const auto end = std::upper_bound(at, piece.end(), *at);
-      counts.push_back(static_cast<double>(end - at));
-      at = end;
-    }
-    densities.push_back(base::median(std::move(counts)));
-  }
-  return densities.empty() ? 0 : base::median(std::move(densities));
+  for (auto& piece : squares)
+    if (!piece.empty()) densities.push_back(density_in_squares(std::move(piece), seen));
+  if (!densities.empty()) seen.density = base::median(std::move(densities));
+  return seen;
 }
 
 auto percent(std::uint64_t part, std::uint64_t whole) -> std::string {
@@ -213,7 +241,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     if (clouds.size() > few) continue;
     const auto seen = density_where_points_are(*source->cloud, source->way, run);
     if (!seen) return seen.failure();
-    densities.back() = std::max(densities.back(), *seen);
+    densities.back() = std::max(densities.back() * seen->share_of_once(), seen->density);
   }
   const auto none = [&](const std::string& what) { return base::error("ingest-points-empty", what, subject); };
   if (densities.empty()) {
@@ -233,6 +261,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   auto& surface = **opened;
 
   Read read;
+  std::vector<NamedFingerprint> fingerprints;
   std::mutex mutex;
   std::uint64_t opened_points = 0;
   for (const auto* source : clouds) {
@@ -258,6 +287,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
       const auto own = cloud.box_of(i);
       if (!box || !own || own->plan().overlaps(*box)) wanted.push_back(i);
     }
+    auto& fingerprint = fingerprints.emplace_back(source->path.string(), Fingerprint{}).of;
     std::vector<std::optional<base::Failure>> failures(wanted.size());
     base::parallel_for(wanted.size(), [&](std::size_t i) {
       if (run.cancelled()) return;
@@ -273,15 +303,18 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
       std::vector<cloud::Sample> samples;
       samples.reserve(points->size());
       Read own;
+      Fingerprint own_print;
       for (std::size_t k = 0; k < points->size(); ++k) {
         const auto& p = (*points)[k];
         const std::uint8_t as = (*map)[p.classification];
         own.add(p, as);
+        own_print.add(positions[k], as);
         if (!p.withheld) samples.push_back({positions[k], as, p.return_number, p.returns});
       }
       surface.add(samples, within);
       const std::scoped_lock lock(mutex);
       read.include(own);
+      fingerprint.include(own_print);
     });
     if (run.cancelled()) return base::stopped();
     for (const auto& failure : failures)
@@ -332,6 +365,8 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   warnings_.push_back(base::warning(
       "ingest-points-surface",
       in_words(counts, density, cell, out.ground.has_value(), cloud::classes_in_words(read.classes, *map)), subject));
+  if (auto twice = repeated_in_words(fingerprints, counts); !twice.empty())
+    warnings_.push_back(base::warning("ingest-points-twice", std::move(twice), subject));
   if (const auto unknown = cloud::unknown_classes(read.classes, *map); !unknown.empty())
     warnings_.push_back(base::warning(
         "ingest-points-classes",
