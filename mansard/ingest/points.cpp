@@ -1,6 +1,7 @@
 #include "mansard/ingest/points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "mansard/base/stopped.hpp"
@@ -72,6 +73,13 @@ auto read_points_of_class(const std::vector<fs::path>& paths, std::uint8_t class
         };
         out.push_back({along(p.x, 0), along(p.y, 1), along(p.z, 2)});
       }
+  }
+  std::erase_if(out,
+                [](geometry::Point3 p) { return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z); });
+  if (clouds->size() > 1) {  // which may overlap
+    std::ranges::sort(out);
+    const auto again = std::ranges::unique(out);
+    out.erase(again.begin(), again.end());
   }
   return out;
 }

@@ -69,6 +69,15 @@ TEST_F(ReadPointsOfClass, takes_the_classes_that_the_options_name) {
   EXPECT_EQ(read_points_of_class({cloud}, building, {}, wrong).error().code, "option-value");
 }
 
+TEST_F(ReadPointsOfClass, has_points_of_clouds_that_overlap_once) {
+  const auto west = file("west.xyz", "x y z class\n1 2 3 6\n4 5 6 6\n"),
+             east = file("east.xyz", "x y z class\n7 8 9 6\n4 5 6 6\nnan 5 6 6\n");
+  const auto points = read_points_of_class({west, east}, building, {}, {});
+  ASSERT_TRUE(points) << base::to_string(points.error());
+  EXPECT_THAT(*points,
+              testing::ElementsAre(geometry::Point3{1, 2, 3}, geometry::Point3{4, 5, 6}, geometry::Point3{7, 8, 9}));
+}
+
 /// Points of 16 to a square metre, text PLY.
 auto ply_of(const std::vector<geometry::Point3>& points) -> std::string {
   std::string out = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(points.size()) +
