@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "mansard/cloud/detail/compare_strips.hpp"
 #include "mansard/cloud/detail/grid.hpp"
 #include "mansard/cloud/detail/metres.hpp"
 
@@ -19,7 +20,7 @@ using detail::tile_cells;
 struct Stored {
   std::int32_t x = 0, y = 0, z = 0;
   std::uint8_t classification = 0, flags = 0;
-  std::uint16_t unused = 0;
+  std::uint16_t strip = 0;
 };
 static_assert(sizeof(Stored) == 16);
 
@@ -205,7 +206,7 @@ void Surface::add(std::span<const Sample> samples, const std::optional<geometry:
                             static_cast<std::int32_t>(rounded(s.position.z)),
                             s.classification,
                             flags_of(s),
-                            0};
+                            s.strip};
         at->append(reinterpret_cast<const char*>(&stored), sizeof stored);
       }
   }
@@ -252,7 +253,7 @@ auto Surface::make(const Tile& tile) const -> base::Result<TileSurface> {
     for (std::size_t i = 0; i + sizeof(Stored) <= bytes->size(); i += sizeof(Stored)) {
       Stored s;
       std::memcpy(&s, bytes->data() + i, sizeof s);
-      points.push_back({s.x, s.y, s.z, s.classification, s.flags});
+      points.push_back({s.x, s.y, s.z, s.classification, s.flags, s.strip});
     }
   }
   TileSurface out;
@@ -268,6 +269,7 @@ auto Surface::make(const Tile& tile) const -> base::Result<TileSurface> {
   const std::int64_t side = cell_ * tile_cells, border = cell_ * halo;
   const std::int64_t x = tile.first * side, y = tile.second * side;
   std::tie(out.ground, out.counts.ground_cells) = ground_of(metres.points(), cell_, x, y);
+  out.strips = detail::compare_strips(metres, options_.roughness);
   auto mode = options_.buildings;
   if (mode == Buildings::automatic)
     mode = buildings > 0 && static_cast<double>(buildings) >=

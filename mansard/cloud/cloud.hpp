@@ -16,6 +16,7 @@
 #include "mansard/base/options.hpp"
 #include "mansard/base/outputs.hpp"
 #include "mansard/base/result.hpp"
+#include "mansard/cloud/strips.hpp"
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/points.hpp"
 
@@ -26,6 +27,7 @@ struct Sample {
   geometry::Point3 position;
   std::uint8_t classification = 0;  ///< of ASPRS: 2 ground, 3–5 vegetation, 6 building, 7 and 18 noise, 9 water
   std::uint8_t return_number = 1, returns = 1;
+  std::uint16_t strip = 0;  ///< the flight line; 0: not known
 };
 
 enum class Buildings : std::uint8_t {
@@ -87,6 +89,7 @@ struct TileSurface {
   geometry::Mesh mesh;
   GroundTile ground;
   Counts counts;
+  StripOverlaps strips;
 };
 
 /// Takes points in any order and from any thread, puts them aside in tiles on disk, and then makes the surface of every

@@ -50,6 +50,8 @@ auto own_codes() -> std::vector<base::Code> {
        "points "
        "twice. A point that was measured once counts once.",
        "Nothing to do; leaving the repetitions out saves time.", 0},
+      {"ingest-points-strips", "Flight strips of a point cloud differ in height where they overlap.",
+       "Ask the cloud's producer for a strip adjustment if the difference matters; nothing is corrected.", 0},
       {"ingest-points-surface", "How a surface was made of point clouds.",
        "Nothing to do; the options of the group cloud change it.", 0},
       {"ingest-raster", "A raster has no heights that can be used, has no georeference, or is in another place.",

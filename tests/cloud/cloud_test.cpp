@@ -50,6 +50,7 @@ struct Made {
   cloud::Counts counts;
   std::optional<cloud::Ground> ground;
   std::vector<std::vector<float>> density;  ///< tile by tile
+  cloud::StripOverlaps strips;
 };
 
 auto surface_of(const std::vector<Sample>& samples, double cell, const cloud::Options& options = {},
@@ -68,6 +69,7 @@ auto surface_of(const std::vector<Sample>& samples, double cell, const cloud::Op
     for (auto t : made->mesh.triangles) out.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     out.counts.include(made->counts);
     out.density.push_back(made->ground.points);
+    out.strips.include(made->strips);
     grounds.push_back(std::move(made->ground));
   }
   out.ground = cloud::join(grounds, options.ground_reach);
@@ -259,6 +261,19 @@ TEST(Surface, counts_points_of_different_classes_or_returns_or_heights_at_one_pl
   const auto made = surface_of(samples, 0.5);
   EXPECT_EQ(made.counts.points, before + 4);
   EXPECT_EQ(made.counts.repeated, 0U);
+}
+
+TEST(Surface, keeps_of_points_that_are_given_twice_the_strip_with_the_lowest_number) {
+  auto samples = scatter(0, 0, 40, 40, 8, 12, house);
+  const auto once = samples.size();
+  for (auto& s : samples) s.strip = 7;
+  for (std::size_t i = 0; i < once; ++i) {
+    samples.push_back(samples[i]);
+    samples.back().strip = 3;
+  }
+  const auto made = surface_of(samples, 0.5);
+  EXPECT_EQ(made.counts.points, once);
+  EXPECT_TRUE(made.strips.pairs().empty());
 }
 
 TEST(Surface, of_adjacent_tiles_has_no_gap_and_no_overlap) {

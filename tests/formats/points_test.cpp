@@ -180,6 +180,7 @@ TEST(Points, of_laz_with_waveforms_have_all_but_these) {
     EXPECT_EQ(p.return_number, 1);
     EXPECT_EQ(p.returns, 1);
     EXPECT_EQ((*points)[74].classification, 67);
+    EXPECT_EQ((*points)[77].source, 12);
     EXPECT_TRUE((*points)[62].withheld);
     EXPECT_EQ((*points)[77].colour[1], format == 10 ? 256 * 77 : 0);
   }
@@ -444,6 +445,7 @@ TEST(Las, that_is_written_is_read_back_to_the_millimetre) {
   points[1].intensity = 65535;
   points[2].position = {0.0004, 0.0006, 0};
   points[2].withheld = true;
+  points[2].source = 513;
   const model::Frame frame{{84800, 447400, -3}, "EPSG:28992"};
   const auto bytes = formats::las(points, frame);
   ASSERT_TRUE(bytes) << base::to_string(bytes.error());
@@ -465,11 +467,38 @@ TEST(Las, that_is_written_is_read_back_to_the_millimetre) {
     EXPECT_EQ((*read)[i].return_number, points[i].return_number);
     EXPECT_EQ((*read)[i].intensity, points[i].intensity);
     EXPECT_EQ((*read)[i].withheld, points[i].withheld);
+    EXPECT_EQ((*read)[i].source, points[i].source);
   }
   ASSERT_TRUE((*cloud)->info().stated_bounds);
   EXPECT_NEAR((*cloud)->info().stated_bounds->most.y, 447600, 1e-6);
   points[0].position.x = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(formats::las(points, frame).error().code, "write-las");
+}
+
+TEST(Las, points_without_a_source_have_that_of_the_file) {
+  std::vector<CloudPoint> points(2);
+  points[1].source = 3;
+  auto bytes = *formats::las(points, {});
+  bytes[4] = 7;  // the file source ID
+  const test::Scratch folder;
+  ASSERT_TRUE(base::write_file(folder / "a.las", bytes));
+  const auto read = points_in(folder / "a.las");
+  ASSERT_TRUE(read) << base::to_string(read.error());
+  EXPECT_EQ((*read)[0].source, 7);
+  EXPECT_EQ((*read)[1].source, 3);
+}
+
+TEST(Ply, and_text_have_sources_of_points) {
+  const test::Scratch folder;
+  ASSERT_TRUE(base::write_file(folder / "a.ply",
+                               "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                               "property float z\nproperty ushort point_source_id\nend_header\n1 2 3 412\n"));
+  ASSERT_TRUE(base::write_file(folder / "a.csv", "X,Y,Z,PointSourceId\n1,2,3,412\n"));
+  for (const auto* name : {"a.ply", "a.csv"}) {
+    const auto read = points_in(folder / name);
+    ASSERT_TRUE(read) << base::to_string(read.error());
+    EXPECT_EQ((*read)[0].source, 412) << name;
+  }
 }
 
 TEST(Las, that_is_written_has_colours_where_a_point_has_one) {

@@ -201,10 +201,10 @@ class CloudsTwice : public test::Workshop {
     return file(name, *bytes);
   }
   [[nodiscard]] auto xyz(const std::string& name, const Points& points) const -> fs::path {
-    std::string out = "x y z class\n";
+    std::string out = "x y z class point_source_id\n";
     for (const auto& p : points)
       out += base::to_text(p.position.x) + " " + base::to_text(p.position.y) + " " + base::to_text(p.position.z) + " " +
-             std::to_string(p.classification) + "\n";
+             std::to_string(p.classification) + " " + std::to_string(p.source) + "\n";
     return file(name, out);
   }
   struct Read {
@@ -280,6 +280,21 @@ TEST_F(CloudsTwice, are_not_found_where_a_few_points_are_at_one_place_by_acciden
   auto points = house();
   points.insert(points.end(), points.begin(), points.begin() + 60);
   EXPECT_FALSE(read_clouds({las("a.las", points)}).warnings.contains("ingest-points-twice"));
+}
+
+TEST_F(CloudsTwice, of_strips_that_differ_in_height_are_told) {
+  // Two strips of 4 points/m² each, the second 0.1 m higher.
+  auto first = house(), second = house();
+  for (auto& p : first) p.source = 11;
+  for (auto& p : second) {
+    p.source = 12;
+    p.position = p.position + geometry::Point3{0.11, 0.07, 0.1};
+  }
+  const auto told = read_clouds({las("a.las", first), xyz("b.xyz", second)});
+  EXPECT_THAT(told.warnings.at("ingest-points-strips"),
+              testing::ContainsRegex("height: strip 12 is 0.(09[5-9]|10[0-5]) ± 0.00[1-9] m above strip 11, over "));
+  EXPECT_THAT(told.warnings.at("ingest-points-strips"), testing::EndsWith("; heights of models are between them"));
+  EXPECT_FALSE(read_clouds({at("a.las")}).warnings.contains("ingest-points-strips"));
 }
 
 /// Why a cloud is none that can be used.

@@ -7,7 +7,8 @@ namespace mansard::cloud::detail {
 namespace {
 
 auto is_before(const Point& a, const Point& b) -> bool {
-  return std::tie(a.x, a.y, a.z, a.classification, a.flags) < std::tie(b.x, b.y, b.z, b.classification, b.flags);
+  return std::tie(a.x, a.y, a.z, a.classification, a.flags, a.source) <
+         std::tie(b.x, b.y, b.z, b.classification, b.flags, b.source);
 }
 
 auto is_one_measurement(const Point& a, const Point& b) -> bool {

@@ -11,7 +11,7 @@
 namespace mansard::cloud::detail {
 
 /// Two points are one measurement where place, class and return are the same: a tile that was given twice, deliveries
-/// that overlap. One of them stays. What is left is in an order that does not depend on
+/// that overlap. The one with the lowest source stays. What is left is in an order that does not depend on
 /// the one in which points came. Cost: n log n in the points of a cell.
 class Metres {
  public:

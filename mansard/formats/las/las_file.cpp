@@ -263,6 +263,8 @@ auto LasFile::read(std::size_t i) const -> base::Result<std::vector<CloudPoint>>
     point.returns = wide ? returns >> 4U : returns >> 3U & 7U;
     point.classification = wide ? static_cast<std::uint8_t>(record[16]) : flags & 31U;
     point.withheld = (wide ? flags & 4U : flags & 128U) != 0;
+    const auto source = number_at<std::uint16_t>(record, wide ? 20 : 18);
+    point.source = source != 0 ? source : header_.source;
     if (has_colour(header_.format))
       for (std::size_t c = 0; c < 3; ++c)
         point.colour[c] = number_at<std::uint16_t>(record, colour_at(header_.format) + 2 * c);

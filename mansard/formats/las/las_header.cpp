@@ -114,6 +114,7 @@ auto read_las_header(const RangeFile& file, const std::string& name) -> base::Re
                        " is not read; convert to one of 1.0 to 1.4");
   if (bytes.size() < header_length(header.minor)) return truncated();
   const auto header_size = number_at<std::uint16_t>(bytes, 94);
+  if (header.minor > 0) header.source = number_at<std::uint16_t>(bytes, 4);  // reserved in LAS 1.0
   header.wkt = (number_at<std::uint16_t>(bytes, 6) & 16U) != 0;
   header.point_offset = number_at<std::uint32_t>(bytes, 96);
   const auto kind = static_cast<unsigned char>(bytes[104]);

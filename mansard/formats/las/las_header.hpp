@@ -31,7 +31,8 @@ struct LasRecord {
 };
 
 struct LasHeader {
-  int minor = 0;  ///< LAS 1.minor
+  int minor = 0;             ///< LAS 1.minor
+  std::uint16_t source = 0;  ///< file source ID: that of points whose own is 0
   std::uint32_t point_offset = 0;
   int format = 0;
   bool compressed = false;

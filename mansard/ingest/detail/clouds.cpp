@@ -309,7 +309,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
         const std::uint8_t as = (*map)[p.classification];
         own.add(p, as);
         own_print.add(positions[k], as);
-        if (!p.withheld) samples.push_back({positions[k], as, p.return_number, p.returns});
+        if (!p.withheld) samples.push_back({positions[k], as, p.return_number, p.returns, p.source});
       }
       surface.add(samples, within);
       const std::scoped_lock lock(mutex);
@@ -328,6 +328,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   std::vector<formats::MeshPiece> pieces(tiles.size());
   std::vector<cloud::GroundTile> grounds(tiles.size());
   cloud::Counts counts;
+  cloud::StripOverlaps strips;
   base::parallel_for(tiles.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
     auto made = surface.make(tiles[i]);
@@ -342,6 +343,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     if (cells_ != nullptr) into_cells(pieces[i]);
     const std::scoped_lock lock(mutex);
     counts.include(made->counts);
+    strips.include(made->strips);
   });
   if (run.cancelled()) return base::stopped();
   for (const auto& piece : pieces)
@@ -367,6 +369,11 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
       in_words(counts, density, cell, out.ground.has_value(), cloud::classes_in_words(read.classes, *map)), subject));
   if (auto twice = repeated_in_words(fingerprints, counts); !twice.empty())
     warnings_.push_back(base::warning("ingest-points-twice", std::move(twice), subject));
+  if (const auto differ = cloud::differences_in_words(cloud::strip_differences(strips)); !differ.empty())
+    warnings_.push_back(base::warning(
+        "ingest-points-strips",
+        "flight strips (point source IDs) differ in height: " + differ + "; heights of models are between them",
+        subject));
   if (const auto unknown = cloud::unknown_classes(read.classes, *map); !unknown.empty())
     warnings_.push_back(base::warning(
         "ingest-points-classes",
