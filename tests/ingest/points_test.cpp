@@ -267,13 +267,31 @@ TEST_F(CloudsTwice, that_overlap_have_each_point_once_and_the_share_is_said) {
 }
 
 TEST_F(CloudsTwice, in_one_file_have_the_density_of_one) {
-  // 1.3 points/m²: twice as many would make cells of 0.5 m instead of 1 m.
+  // 1.3 points/m²: twice as many would make cells of 1 m instead of 2 m.
   auto points = house();
   std::erase_if(points, [i = 0](const auto&) mutable { return i++ % 3 != 0; });
   const auto once = read_clouds({las("a.las", points)});
   auto twice = points;
   twice.insert(twice.end(), points.begin(), points.end());
   expect_same(read_clouds({las("b.las", twice)}), once);
+}
+
+TEST_F(CloudsTwice, in_one_file_of_many_pieces_have_the_density_of_one) {
+  // 1.3 points/m², for which cells are 2 m, and eleven pieces of 65,536 points where each point is there twice.
+  Points once;
+  for (int row = 0; row < 600; ++row)
+    for (int column = 0; column < 600; ++column) {
+      auto& p = once.emplace_back();
+      p.position = {0.877 * column + 0.004 * (row % 50), 0.877 * row + 0.004 * (column % 50), 0.01 * (row % 3)};
+      p.classification = 2;
+    }
+  const auto expected = read_clouds({las("a.las", once)});
+  EXPECT_THAT(expected.warnings.at("ingest-points-surface"), testing::HasSubstr("in cells of 2 m"));
+  auto twice = once;
+  twice.insert(twice.end(), once.begin(), once.end());
+  const auto made = read_clouds({las("b.las", twice)});
+  expect_same(made, expected);
+  EXPECT_THAT(made.warnings.at("ingest-points-twice"), testing::HasSubstr("360000 of 720000 points (50.0 %)"));
 }
 
 TEST_F(CloudsTwice, are_not_found_where_a_few_points_are_at_one_place_by_accident) {

@@ -3,13 +3,12 @@
 #include <array>
 #include <cmath>
 #include <mutex>
-#include <tuple>
 
-#include "mansard/base/statistics.hpp"
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/cloud/classes.hpp"
 #include "mansard/cloud/cloud.hpp"
+#include "mansard/ingest/detail/cloud_density.hpp"
 #include "mansard/ingest/detail/cloud_pieces.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
 #include "mansard/ingest/detail/same_clouds.hpp"
@@ -49,82 +48,6 @@ auto measured(const formats::PointCloud& cloud, const base::Run& run) -> base::R
   Box2 all;
   for (const auto& box : boxes) all.include(box);
   return all;
-}
-
-struct InSquare {
-  double column = 0, row = 0;  ///< of a square of a metre
-  Point3 at;
-};
-
-/// What some pieces of a cloud show of its density.
-struct Seen {
-  double density = 0;  ///< points/m²; 0 where they say nothing
-  std::uint64_t points = 0, repeated = 0;
-
-  [[nodiscard]] auto share_of_once() const -> double {
-    return points == 0 ? 1 : static_cast<double>(points - repeated) / static_cast<double>(points);
-  }
-};
-
-/// The median over the squares that have points. A point counts once.
-auto density_in_squares(std::vector<InSquare> points, Seen& seen) -> double {
-  const auto key = [](const InSquare& p) { return std::tie(p.column, p.row, p.at.x, p.at.y, p.at.z); };
-  std::ranges::sort(points, {}, key);
-  const auto again = std::ranges::unique(points, {}, key);
-  seen.points += points.size();
-  seen.repeated += again.size();
-  points.erase(again.begin(), again.end());
-  const auto square = [](const InSquare& p) { return std::tie(p.column, p.row); };
-  std::vector<double> counts;
-  for (auto at = points.begin(); at != points.end();) {
-    const auto end = std::ranges::upper_bound(at, points.end(), square(*at), {}, square);
-    counts.push_back(static_cast<double>(end - at));
-    at = end;
-  }
-  return base::median(std::move(counts));
-}
-
-/// Clouds are often cut out along a street, or of one building: the box around them is mostly empty then. Points in
-/// a square of a metre that has any, the median: edges and single points in the air count little. Of some pieces of the
-/// cloud, evenly spaced. Pieces with a box are levels of an index, each with a part of the points at its place, and say
-/// nothing.
-auto density_where_points_are(const formats::PointCloud& cloud, const std::optional<crs::WayOfMesh>& way,
-                              const base::Run& run) -> base::Result<Seen> {
-  // Pieces of 50,000 points in most files. Of a file with few, all of them together: strips that overlap follow each
-  // other in it. Of others some, each for itself.
-  constexpr std::size_t few = 8, some = 4;
-  const bool together = cloud.pieces() <= few;
-  const std::size_t most = together ? cloud.pieces() : some;
-  std::vector<std::vector<InSquare>> squares(most);
-  std::vector<std::optional<base::Failure>> failures(most);
-  base::parallel_for(most, [&](std::size_t k) {
-    const std::size_t piece = k * cloud.pieces() / most;
-    if (run.cancelled() || cloud.box_of(piece)) return;
-    const auto points = cloud.read(piece);
-    if (!points) {
-      failures[k] = points.failure();
-      return;
-    }
-    std::vector<Point3> positions;
-    for (const auto& p : *points)
-      if (finite(p.position)) positions.push_back(p.position);
-    if (way) way->take(positions);
-    squares[k].reserve(positions.size());
-    for (const auto& p : positions) squares[k].push_back({std::floor(p.x), std::floor(p.y), p});
-  });
-  for (const auto& failure : failures)
-    if (failure) return *failure;
-  if (together) {
-    std::vector<InSquare> all;
-    for (const auto& piece : squares) all.insert(all.end(), piece.begin(), piece.end());
-    squares.assign(1, std::move(all));
-  }
-  Seen seen;
-  std::vector<double> densities;
-  for (auto& piece : squares)
-    if (!piece.empty()) densities.push_back(density_in_squares(std::move(piece), seen));
-  if (!densities.empty()) seen.density = base::median(std::move(densities));
-  return seen;
 }
 
 auto percent(std::uint64_t part, std::uint64_t whole) -> std::string {
@@ -241,7 +164,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     if (clouds.size() > few) continue;
     const auto seen = density_where_points_are(*source->cloud, source->way, run);
     if (!seen) return seen.failure();
-    densities.back() = std::max(densities.back() * seen->share_of_once(), seen->density);
+    densities.back() = std::max(densities.back() * seen->share_of_once, seen->density);
   }
   const auto none = [&](const std::string& what) { return base::error("ingest-points-empty", what, subject); };
   if (densities.empty()) {

@@ -8,9 +8,6 @@
 namespace mansard::ingest::detail {
 namespace {
 
-/// Points that two scans have at one place by accident are fewer: with 100 points/m², a standard deviation of 0.03 m
-/// and coordinates in centimetres, 100/m² · (0.01 m)² · 0.01 m / (√(4π) · 0.03 m), a thousandth.
-constexpr double noticeable_share = 0.01;
 /// Units of the fingerprint, as of the surface: a quarter of a millimetre.
 constexpr double per_metre = 4096, most_units = 1e12;
 
@@ -49,15 +46,21 @@ auto same_in_words(const std::vector<NamedFingerprint>& clouds) -> std::string {
 
 }  // namespace
 
-void Fingerprint::add(geometry::Point3 p, std::uint8_t classification) {
+auto hash_of(geometry::Point3 p, std::uint8_t classification) -> std::optional<std::uint64_t> {
   std::uint64_t hash = classification;
   for (const double c : {p.x, p.y, p.z}) {
     const double units = std::floor(c * per_metre + 0.5);
-    if (!(std::abs(units) < most_units)) return;
+    if (!(std::abs(units) < most_units)) return std::nullopt;
     hash = mixed(hash + 0x9e3779b97f4a7c15U + static_cast<std::uint64_t>(static_cast<std::int64_t>(units)));
   }
+  return hash;
+}
+
+void Fingerprint::add(geometry::Point3 p, std::uint8_t classification) {
+  const auto hash = hash_of(p, classification);
+  if (!hash) return;
   ++points;
-  sum += hash;
+  sum += *hash;
 }
 
 void Fingerprint::include(const Fingerprint& other) {
