@@ -23,9 +23,11 @@ struct InfoRequest {
   std::vector<std::string> files;
   bool json = false, verbose = false;
   std::size_t jobs = 0;
+  Settings settings;
 };
 
-auto info_of(const fs::path& path, const InfoRequest& request, const base::Run& run) -> base::Result<Json> {
+auto info_of(const fs::path& path, const InfoRequest& request, const cloud::ClassMap& classes, const base::Run& run)
+    -> base::Result<Json> {
   // A CityJSON of terrain alone has no models for a reader of models.
   const auto extension = formats::extension_of(path);
   if (extension.ends_with("json") || extension.ends_with("jsonl"))
@@ -36,7 +38,7 @@ auto info_of(const fs::path& path, const InfoRequest& request, const base::Run& 
     if (const auto name = path.filename().string(); name.ends_with(beside)) {
       const auto obj = path.parent_path() / (name.substr(0, name.size() - beside.size()) + ".obj");
       std::error_code status;
-      if (fs::is_regular_file(obj, status)) return info_of(obj, request, run);
+      if (fs::is_regular_file(obj, status)) return info_of(obj, request, classes, run);
     }
   auto reader = open_city(path);
   if (reader) return info_of_city(path, **reader, request.verbose, run);
@@ -46,19 +48,23 @@ auto info_of(const fs::path& path, const InfoRequest& request, const base::Run& 
   // Of a folder the reader only reports that it is not a tileset.
   std::error_code status;
   const bool other_folder = fs::is_directory(path, status) && !fs::exists(path / "tileset.json", status);
-  if (other_folder) return info_of_other(path, why, request.verbose, run);
+  if (other_folder) return info_of_other(path, why, request.verbose, classes, run);
   if (broken || (why.code == "file-missing" && path.string().find(':') == std::string::npos)) return why;
-  return info_of_other(path, why, request.verbose, run);
+  return info_of_other(path, why, request.verbose, classes, run);
 }
 
 auto info(const InfoRequest& request, const base::Cancel& cancel) -> int {
+  pipeline::Options options;
+  if (auto applied = request.settings.apply(options); !applied) return give_up(applied.errors());
+  const auto classes = cloud::class_map(options.ingest.cloud);
+  if (!classes) return give_up(classes.errors());
   base::limit_threads(request.jobs);
   base::Run run;
   run.cancel = &cancel;
   int exit = all_done;
   Json all = Json::array();
   for (const auto& file : request.files) {
-    auto described = info_of(file, request, run);
+    auto described = info_of(file, request, *classes, run);
     if (!described) {
       exit = give_up(described.errors());
       if (exit == cancelled) return exit;
@@ -86,6 +92,7 @@ auto info_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   verb->add_flag("-v,--verbose", request->verbose,
                  "Also print the options that models were made with where they have their defaults");
   add_jobs(*verb, request->jobs);
+  request->settings.add_to(*verb);
   return {verb, [request, &cancel] { return info(*request, cancel); }};
 }
 

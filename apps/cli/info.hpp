@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "mansard/base/run.hpp"
+#include "mansard/cloud/classes.hpp"
 #include "mansard/formats/stream.hpp"
 #include "mansard/formats/terrain.hpp"
 #include "mansard/geometry/points.hpp"
@@ -31,10 +32,10 @@ class Extent3 {
 /// {"version", "options_not_default", "inputs"}; "options" of `all_options`.
 [[nodiscard]] auto made_by_json(const model::MadeBy& made_by, bool all_options) -> Json;
 
-/// Anything else: models of other producers, STL, tilesets, meshes, rasters, footprint sources. `why`: why mansard did
-/// not write it.
+/// Anything else: models of other producers, STL, tilesets, meshes, point clouds, rasters, footprint sources. `why`:
+/// why mansard did not write it. `classes`: what the classes of points are taken for.
 [[nodiscard]] auto info_of_other(const std::filesystem::path& path, const base::Diagnostic& why, bool all_options,
-                                 const base::Run& run) -> base::Result<Json>;
+                                 const cloud::ClassMap& classes, const base::Run& run) -> base::Result<Json>;
 
 /// What a tileset.json has: its version, and per level how many tiles and what geometric errors; null where there is
 /// none in the folder.

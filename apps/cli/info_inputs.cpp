@@ -185,7 +185,7 @@ auto info_of_mesh(const fs::path& path, const base::Run& run) -> base::Result<Js
 
 // ---- point clouds
 
-auto info_of_points(const fs::path& path, const base::Run& run) -> base::Result<Json> {
+auto info_of_points(const fs::path& path, const cloud::ClassMap& as, const base::Run& run) -> base::Result<Json> {
   const auto opened = formats::open_points(path);
   if (!opened) return opened.failure();
   const auto& cloud = **opened;
@@ -220,8 +220,8 @@ auto info_of_points(const fs::path& path, const base::Run& run) -> base::Result<
       const auto in_metres = [&] {
         return geometry::Point3{info.unit * p.position.x, info.unit * p.position.y, info.unit * p.position.z};
       };
-      if (p.classification == 6) piece.buildings.push_back(in_metres());
-      else if (p.classification < 3 && p.returns <= 1) piece.others.push_back(in_metres());
+      if (as[p.classification] == cloud::building) piece.buildings.push_back(in_metres());
+      else if (as[p.classification] < 3 && p.returns <= 1) piece.others.push_back(in_metres());
     }
   });
   if (run.cancelled()) return base::error("cancelled", "stopped on request");
@@ -397,12 +397,12 @@ auto info_of_layers(const fs::path& path) -> base::Result<Json> {
   return layers_of(*source);
 }
 
-auto info_of_other(const fs::path& path, const base::Diagnostic& why, bool all_options, const base::Run& run)
-    -> base::Result<Json> {
+auto info_of_other(const fs::path& path, const base::Diagnostic& why, bool all_options, const cloud::ClassMap& classes,
+                   const base::Run& run) -> base::Result<Json> {
   if (extension_of(path) == "stl") return info_of_stl(path);
-  if (formats::is_point_cloud(path)) return info_of_points(path, run);
+  if (formats::is_point_cloud(path)) return info_of_points(path, classes, run);
   std::error_code status;
-  if (fs::is_regular_file(path / "ept.json", status)) return info_of_points(path / "ept.json", run);
+  if (fs::is_regular_file(path / "ept.json", status)) return info_of_points(path / "ept.json", classes, run);
   if (auto tileset = info_of_tileset(path); !tileset.is_null()) {
     Json out = head(path, "tileset", "tiles");
     out["tileset"] = std::move(tileset);

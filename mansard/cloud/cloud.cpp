@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "mansard/cloud/detail/compare_strips.hpp"
 #include "mansard/cloud/detail/grid.hpp"
+#include "mansard/cloud/detail/metres.hpp"
 
 namespace mansard::cloud {
 namespace {
@@ -17,7 +19,8 @@ using detail::tile_cells;
 /// A point on disk: coordinates from the south-west corner of the tile's window.
 struct Stored {
   std::int32_t x = 0, y = 0, z = 0;
-  std::uint8_t classification = 0, flags = 0, own = 0, unused = 0;
+  std::uint8_t classification = 0, flags = 0;
+  std::uint16_t strip = 0;
 };
 static_assert(sizeof(Stored) == 16);
 
@@ -71,6 +74,7 @@ auto ground_of(const std::vector<detail::Point>& points, std::int64_t cell, std:
 
 void Counts::include(const Counts& o) {
   points += o.points;
+  repeated += o.repeated;
   not_used += o.not_used;
   cells += o.cells;
   isolated += o.isolated;
@@ -180,13 +184,11 @@ void Surface::add(std::span<const Sample> samples, const std::optional<geometry:
     most = {floored(rounded(within->most.x), side), floored(rounded(within->most.y), side)};
   }
   std::map<Tile, std::string> parts;
-  std::map<Tile, std::uint64_t> own;
   Tile last{0, 0};
   std::string* at = nullptr;
   for (const auto& s : samples) {
     if (is_noise(s)) continue;
     const std::int64_t x = rounded(s.position.x), y = rounded(s.position.y);
-    const Tile home{floored(x, side), floored(y, side)};
     for (auto i = std::max(floored(x - border, side), least.first);
          i <= std::min(floored(x + border, side), most.first); ++i)
       for (auto j = std::max(floored(y - border, side), least.second);
@@ -194,15 +196,12 @@ void Surface::add(std::span<const Sample> samples, const std::optional<geometry:
         const Tile tile{i, j};
         if (at == nullptr || tile != last) at = &parts[tile];
         last = tile;
-        const bool inside = tile == home;
-        if (inside) ++own[tile];
         const Stored stored{static_cast<std::int32_t>(x - i * side + border),
                             static_cast<std::int32_t>(y - j * side + border),
                             static_cast<std::int32_t>(rounded(s.position.z)),
                             s.classification,
                             flags_of(s),
-                            static_cast<std::uint8_t>(inside ? 1 : 0),
-                            0};
+                            s.strip};
         at->append(reinterpret_cast<const char*>(&stored), sizeof stored);
       }
   }
@@ -218,7 +217,6 @@ void Surface::add(std::span<const Sample> samples, const std::optional<geometry:
     buffered_ += part.size();
     if (buffer.size() >= piece) flush(tile, buffer);
   }
-  for (const auto& [tile, count] : own) own_[tile] += count;
   if (buffered_ > most_buffered)
     for (auto& [tile, buffer] : buffers_) flush(tile, buffer);
 }
@@ -241,8 +239,6 @@ auto Surface::make(const Tile& tile) const -> base::Result<TileSurface> {
     if (at != chunks_.end()) chunks = at->second;
   }
   std::vector<detail::Point> points;
-  TileSurface out;
-  std::uint64_t buildings = 0;
   for (const auto& chunk : chunks) {
     base::Result<std::string> bytes = [&] {
       const std::scoped_lock lock(mutex_);
@@ -252,24 +248,31 @@ auto Surface::make(const Tile& tile) const -> base::Result<TileSurface> {
     for (std::size_t i = 0; i + sizeof(Stored) <= bytes->size(); i += sizeof(Stored)) {
       Stored s;
       std::memcpy(&s, bytes->data() + i, sizeof s);
-      points.push_back({s.x, s.y, s.z, s.classification, s.flags});
-      buildings += s.classification == 6 ? 1 : 0;
-      if (s.own == 0) continue;
-      ++out.counts.points;
-      ++out.counts.classes[s.classification];
+      points.push_back({s.x, s.y, s.z, s.classification, s.flags, s.strip});
     }
+  }
+  TileSurface out;
+  detail::Metres metres(std::move(points), cell_);
+  out.counts.repeated = metres.repeated();
+  std::uint64_t buildings = 0;
+  for (const auto& p : metres.points()) {
+    buildings += p.classification == 6 ? 1 : 0;
+    if (!metres.is_own(p)) continue;
+    ++out.counts.points;
+    ++out.counts.classes[p.classification];
   }
   const std::int64_t side = cell_ * tile_cells, border = cell_ * halo;
   const std::int64_t x = tile.first * side, y = tile.second * side;
-  std::tie(out.ground, out.counts.ground_cells) = ground_of(points, cell_, x, y);
+  std::tie(out.ground, out.counts.ground_cells) = ground_of(metres.points(), cell_, x, y);
+  out.strips = detail::compare_strips(metres, options_.roughness);
   auto mode = options_.buildings;
   if (mode == Buildings::automatic)
-    mode =
-        buildings > 0 && static_cast<double>(buildings) >= options_.building_share * static_cast<double>(points.size())
-            ? Buildings::by_class
-            : Buildings::by_shape;
+    mode = buildings > 0 && static_cast<double>(buildings) >=
+                                options_.building_share * static_cast<double>(metres.points().size())
+               ? Buildings::by_class
+               : Buildings::by_shape;
   ++(mode == Buildings::by_class ? out.counts.tiles_by_class : out.counts.tiles_by_shape);
-  detail::Grid grid(std::move(points), cell_, mode);
+  detail::Grid grid(std::move(metres).take(), cell_, mode);
   detail::clean(grid, options_, out.counts);
   out.mesh = detail::mesh_of(grid, options_);
   const double west = static_cast<double>(x - border) / per_metre, south = static_cast<double>(y - border) / per_metre;

@@ -16,6 +16,7 @@
 #include "mansard/base/options.hpp"
 #include "mansard/base/outputs.hpp"
 #include "mansard/base/result.hpp"
+#include "mansard/cloud/strips.hpp"
 #include "mansard/geometry/mesh.hpp"
 #include "mansard/geometry/points.hpp"
 
@@ -26,6 +27,7 @@ struct Sample {
   geometry::Point3 position;
   std::uint8_t classification = 0;  ///< of ASPRS: 2 ground, 3–5 vegetation, 6 building, 7 and 18 noise, 9 water
   std::uint8_t return_number = 1, returns = 1;
+  std::uint16_t strip = 0;  ///< the flight line; 0: not known
 };
 
 enum class Buildings : std::uint8_t {
@@ -59,6 +61,7 @@ struct Options {
 /// What was decided and counted, for the report.
 struct Counts {
   std::uint64_t points = 0;    ///< in the tiles
+  std::uint64_t repeated = 0;  ///< beside these: the same point again
   std::uint64_t not_used = 0;  ///< of these: noise, or not finite
   std::uint64_t cells = 0;     ///< with a height
   std::uint64_t isolated = 0;  ///< cells that were emptied, or took their next lower height
@@ -84,13 +87,15 @@ struct TileSurface {
   geometry::Mesh mesh;
   GroundTile ground;
   Counts counts;
+  StripOverlaps strips;
 };
 
 /// Takes points in any order and from any thread, puts them aside in tiles on disk, and then makes the surface of every
 /// tile. Guarantees: 1 the surface of a tile depends on the points within it and `halo` cells around it, and not on
 /// their order, nor on what else was added · 2 the surfaces of all tiles together are one: what belongs to two of them
 /// has the same vertices in both · 3 every vertex is finite · 4 where there is no point within a cell, nor a small gap
-/// of one height, there is no surface. Cost: linear in points and cells; 20 bytes a point on disk.
+/// of one height, there is no surface · 5 a point that was added twice, at the same place with the same class and
+/// return, counts once. Cost: linear in points and cells; 20 bytes a point on disk.
 class Surface {
  public:
   /// `cell` in metres, as from cell_for. Fails with "file-write".
@@ -123,7 +128,6 @@ class Surface {
   };
   std::map<Tile, std::vector<Chunk>> chunks_;
   std::map<Tile, std::string> buffers_;
-  std::map<Tile, std::uint64_t> own_;  ///< points within, not around, a tile
   std::size_t buffered_ = 0;
 };
 

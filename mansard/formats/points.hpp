@@ -21,7 +21,8 @@ struct CloudPoint {
   geometry::Point3 position;  ///< file coordinates, in the units of its CRS; may hold NaN where the file does
   std::uint8_t classification = 0;
   std::uint8_t return_number = 1, returns = 1;
-  bool withheld = false;  ///< not to be used, says the producer
+  bool withheld = false;     ///< not to be used, says the producer
+  std::uint16_t source = 0;  ///< the flight line, or another set that was measured together; 0: not known
   std::uint16_t intensity = 0;
   std::array<std::uint16_t, 3> colour{};  ///< red, green, blue; 16 bits each, or 8 where the producer did so
 };

@@ -32,7 +32,7 @@ auto own_codes() -> std::vector<base::Code> {
       {"ingest-points-truncated", "A point cloud ends before the points that its header counts.",
        "Copy or export it again.", 3},
       {"ingest-points-unsupported", "A point cloud uses a version or a part of its format that is not read.",
-       "Convert it to LAS 1.4 or LAZ with point formats 0 to 3 or 6 to 8.", 3},
+       "Convert it to LAS 1.4 or LAZ with point formats 0 to 3 or 6 to 10.", 3},
       {"ingest-points-empty", "Point clouds have no points that can be used, or none in the box asked for.",
        "Check --bbox, --crs and the classes of the points.", 3},
       {"ingest-points-records", "Records in the header of a point cloud are damaged and were left out.",
@@ -45,6 +45,13 @@ auto own_codes() -> std::vector<base::Code> {
        "Ask the cloud's producer what they mean, and name them with --cloud-building-classes, --cloud-ground-classes "
        "or --cloud-left-out-classes.",
        0},
+      {"ingest-points-twice",
+       "Points are repeated in the point clouds: the same tile was given twice, deliveries overlap, or a file has "
+       "points "
+       "twice. A point that was measured once counts once.",
+       "Nothing to do; leaving the repetitions out saves time.", 0},
+      {"ingest-points-strips", "Flight strips of a point cloud differ in height where they overlap.",
+       "Ask the cloud's producer for a strip adjustment if the difference matters; nothing is corrected.", 0},
       {"ingest-points-surface", "How a surface was made of point clouds.",
        "Nothing to do; the options of the group cloud change it.", 0},
       {"ingest-raster", "A raster has no heights that can be used, has no georeference, or is in another place.",

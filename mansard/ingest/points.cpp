@@ -1,9 +1,11 @@
 #include "mansard/ingest/points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "mansard/base/stopped.hpp"
+#include "mansard/cloud/classes.hpp"
 #include "mansard/formats/points.hpp"
 #include "mansard/ingest/detail/cloud_pieces.hpp"
 #include "mansard/ingest/detail/files_below.hpp"
@@ -44,6 +46,8 @@ auto read_points_of_class(const std::vector<fs::path>& paths, std::uint8_t class
   std::vector<geometry::Point3> out;
   const auto clouds = clouds_in(paths);
   if (!clouds) return clouds.failure();
+  const auto map = cloud::class_map(options.cloud);
+  if (!map) return map.failure();
   for (const auto& path : *clouds) {
     const auto opened = formats::open_points(path);
     if (!opened) return opened.failure();
@@ -57,7 +61,7 @@ auto read_points_of_class(const std::vector<fs::path>& paths, std::uint8_t class
     std::vector<std::vector<geometry::Point3>> pieces(cloud.pieces());
     const auto read = detail::each_piece(cloud, run, [&](std::size_t i, const auto& points) {
       for (const auto& p : points)
-        if (p.classification == classification && !p.withheld) pieces[i].push_back(p.position);
+        if ((*map)[p.classification] == classification && !p.withheld) pieces[i].push_back(p.position);
       if (way) way->take(pieces[i]);
     });
     if (run.cancelled()) return base::stopped();
@@ -69,6 +73,13 @@ auto read_points_of_class(const std::vector<fs::path>& paths, std::uint8_t class
         };
         out.push_back({along(p.x, 0), along(p.y, 1), along(p.z, 2)});
       }
+  }
+  std::erase_if(out,
+                [](geometry::Point3 p) { return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z); });
+  if (clouds->size() > 1) {  // which may overlap
+    std::ranges::sort(out);
+    const auto again = std::ranges::unique(out);
+    out.erase(again.begin(), again.end());
   }
   return out;
 }

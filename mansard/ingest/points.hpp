@@ -13,8 +13,10 @@
 
 namespace mansard::ingest {
 
-/// The points of `classification` in all clouds among the paths (files, and those in folders), in metres of the frame,
-/// with the offset of the options; other files are passed over. 24 bytes a point. Fails as read_scene does for clouds.
+/// The points of `classification`, or of what the lists of classes in the options say is that, in all clouds among the
+/// paths (files, and those in folders), in metres of the frame, with the offset of the options; other files are passed
+/// over. Those that are not finite are left out; of several clouds, each place is there once. 24 bytes a point. Fails
+/// as read_scene does for clouds.
 [[nodiscard]] auto read_points_of_class(const std::vector<std::filesystem::path>& paths, std::uint8_t classification,
                                         const model::Frame& frame, const Options& options, const base::Run& run = {})
     -> base::Result<std::vector<geometry::Point3>>;

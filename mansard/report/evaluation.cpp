@@ -344,8 +344,8 @@ auto evaluation_table(const Evaluation& e, const EvaluationInput& input) -> std:
     out += line("building points", "RMSE " + to_text(p.rmse, 3) + " m, median " + to_text(p.median, 3) +
                                        " m (point - model); within 0.1, 0.25, 0.5 m " + percent(p.within_10cm) + ", " +
                                        percent(p.within_25cm) + ", " + percent(p.within_50cm));
-    out += line("  of class 6", std::to_string(p.points - p.without_model) + " over the model, " +
-                                    std::to_string(p.without_model) + " beside it");
+    out += line("  of buildings", std::to_string(p.points - p.without_model) + " over the model, " +
+                                      std::to_string(p.without_model) + " beside it");
   }
   out += "form\n";
   for (const auto& [what, value] : detail::lines_of(e.form)) out += line(what, value);

@@ -29,7 +29,7 @@ struct EvaluationInput {
   std::optional<model::Model> truth;
   model::Scene scene;  ///< the mesh with the reference's footprints; `warnings` of all files
   Reference reference = Reference::model;
-  std::vector<geometry::Point3> building_points;  ///< of class 6, where point clouds are among the meshes
+  std::vector<geometry::Point3> building_points;  ///< by their class, where point clouds are among the meshes
 };
 
 struct ModelCounts {

@@ -99,6 +99,23 @@ TEST_F(Doctor, names_the_national_system_of_the_mesh) {
   EXPECT_THAT(outcome.out, HasSubstr("--crs EPSG:28992"));
 }
 
+TEST_F(Doctor, reads_point_clouds_with_the_classes_that_are_given) {
+  // The house is of class 67, one beside it of class 6, so that buildings are found by class.
+  std::string points = "x y z class\n";
+  for (int y = -20; y < 40; ++y)
+    for (int x = -20; x < 40; ++x) {
+      const bool in = x >= 0 && x < 12 && y >= 0 && y < 8, beside = x >= 25 && x < 35 && y >= 25 && y < 35;
+      points += std::to_string(x) + ".5 " + std::to_string(y) + ".5 " + (in ? "6 67\n" : beside ? "6 6\n" : "0 2\n");
+    }
+  const std::string inputs = put("cloud.xyz", points) + " " + at("house.geojson");
+  const auto with = run("doctor " + inputs + " --cloud-building-classes 6,67");
+  EXPECT_EQ(with.exit, 0) << with.out << with.err;
+  EXPECT_THAT(with.out, HasSubstr("mansard reconstruct " + inputs + " --cloud-building-classes 6,67 -o models"));
+  EXPECT_THAT(with.out, HasSubstr("accuracy"));
+  const auto without = run("doctor " + inputs);
+  EXPECT_EQ(without.exit, 1) << without.out << "class 67 is no building";
+}
+
 TEST_F(Doctor, without_arguments_the_program_says_what_to_do_first) {
   const auto outcome = run("");
   EXPECT_EQ(outcome.exit, 2);

@@ -96,7 +96,7 @@ TEST_F(Help, of_every_verb_fits_one_screen) {
     if (verb["modules"].empty()) {
       EXPECT_THAT(help.out, Not(HasSubstr("--help-all"))) << name;
     } else {
-      EXPECT_GE(shown, 8) << name;
+      EXPECT_GE(shown, name == "info" ? 7 : 8) << name;
     }
   }
 }
@@ -173,6 +173,7 @@ TEST_F(Help, all_of_a_verb_shows_the_modules_that_it_reads_and_no_other) {
 }
 
 TEST_F(Help, an_option_of_a_module_that_the_verb_does_not_read_is_refused_with_the_verbs_that_do) {
+  const std::set<std::string> verbs_without_output{"doctor", "info", "new"};
   std::map<std::string, std::set<std::string>> readers;
   for (const auto& verb : known_["verbs"])
     for (const auto& module : verb["modules"]) readers[module].insert(verb["verb"]);
@@ -181,7 +182,7 @@ TEST_F(Help, an_option_of_a_module_that_the_verb_does_not_read_is_refused_with_t
       const std::string name = verb["verb"];
       if (readers[module].contains(name) || verb["modules"].empty()) continue;
       const auto outcome =
-          run(name + (name == "doctor" || name == "new" ? " a b " : " a b -o c ") + options.front() + " 1");
+          run(name + (verbs_without_output.contains(name) ? " a b " : " a b -o c ") + options.front() + " 1");
       expect_refusal(outcome, 2, "option-verb", "of the module " + module + ";");
       EXPECT_THAT(outcome.err, HasSubstr("] " + options.front() + ": 'mansard " + name + "'"));
       for (const auto& reader : readers[module]) EXPECT_THAT(outcome.err, HasSubstr(reader)) << outcome.err;

@@ -251,6 +251,36 @@ TEST_F(Info, describes_models_tilesets_and_shells_of_other_producers) {
   EXPECT_EQ(shells[0]["header"], "shells");
 }
 
+/// Level roofs of class 67 whose points are within 0.02 m of a plane, beside points of class 1 that are within 0.4 m.
+auto cloud_of_class_67() -> std::string {
+  std::ostringstream out;
+  out << "x y z class\n";
+  std::uint32_t state = 1;
+  const auto within = [&](double reach) {  // Numerical Recipes' generator: the same numbers everywhere
+    state = 1664525U * state + 1013904223U;
+    return reach * (2.0 * state / 4294967296.0 - 1);
+  };
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 120; ++x)
+      out << 0.5 * x << " " << 0.5 * y << " " << (x < 60 ? 6 + within(0.02) : within(0.4)) << (x < 60 ? " 67" : " 1")
+          << "\n";
+  return out.str();
+}
+
+TEST_F(Info, measures_the_noise_of_points_on_the_classes_that_are_said_to_be_buildings) {
+  put("cloud.xyz", cloud_of_class_67());
+  const auto noise = [&](const std::string& options) {
+    const auto told = info(at("cloud.xyz") + options);
+    EXPECT_EQ(told[0]["classes"], Json::parse(R"({"1":3600,"67":3600})"));
+    return told[0]["accuracy"]["noise_m"].get<double>();
+  };
+  EXPECT_GT(noise(""), 0.1);
+  EXPECT_NEAR(noise(" --cloud-building-classes 6,67"), 0.04 / std::sqrt(12.0), 0.005);
+  put("classes.toml", "[cloud]\nbuilding_classes = \"67\"\n");
+  EXPECT_LT(noise(" --config " + at("classes.toml")), 0.02);
+  expect_refusal(run("info " + at("cloud.xyz") + " --cloud-building-classes roofs"), 4, "option-value");
+}
+
 TEST_F(Info, follows_tilesets_in_tilesets_once) {
   fs::create_directories(folder_ / "nested/inner");
   put("nested/tileset.json", R"({"asset":{"version":"1.1"},"geometricError":40,"root":{"geometricError":20,

@@ -49,6 +49,8 @@ struct Made {
   geometry::Mesh mesh;
   cloud::Counts counts;
   std::optional<cloud::Ground> ground;
+  std::vector<std::vector<float>> density;  ///< tile by tile
+  cloud::StripOverlaps strips;
 };
 
 auto surface_of(const std::vector<Sample>& samples, double cell, const cloud::Options& options = {},
@@ -66,6 +68,8 @@ auto surface_of(const std::vector<Sample>& samples, double cell, const cloud::Op
     out.mesh.points.insert(out.mesh.points.end(), made->mesh.points.begin(), made->mesh.points.end());
     for (auto t : made->mesh.triangles) out.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     out.counts.include(made->counts);
+    out.density.push_back(made->ground.points);
+    out.strips.include(made->strips);
     grounds.push_back(std::move(made->ground));
   }
   out.ground = cloud::join(grounds, options.ground_reach);
@@ -216,6 +220,51 @@ TEST(Surface, does_not_depend_on_the_order_of_points_nor_on_what_is_far_away) {
   ASSERT_FALSE(part.empty());
   EXPECT_LT(part.size(), all.size());
   EXPECT_TRUE(std::ranges::includes(all, part));
+}
+
+TEST(Surface, counts_a_point_that_is_given_twice_once) {
+  const auto once = scatter(-20, -20, 150, 80, 8, 12, house);
+  auto twice = once;
+  twice.insert(twice.end(), once.rbegin(), once.rend());
+  twice.insert(twice.end(), once.begin(), once.begin() + 100);
+  for (const double cell : {0.0625, 0.5, 1.0}) {
+    const auto expected = surface_of(once, cell), made = surface_of(twice, cell);
+    EXPECT_LT(expected.counts.repeated, 3U) << "at one place by accident";
+    EXPECT_EQ(made.counts.points + made.counts.repeated, twice.size());
+    EXPECT_EQ(made.counts.points, expected.counts.points);
+    EXPECT_EQ(made.counts.classes, expected.counts.classes);
+    EXPECT_EQ(made.mesh.vertices, expected.mesh.vertices);
+    EXPECT_EQ(made.mesh.triangles, expected.mesh.triangles);
+    EXPECT_EQ(made.mesh.points, expected.mesh.points);
+    EXPECT_EQ(made.ground->heights.size(), expected.ground->heights.size());
+    EXPECT_EQ(made.density, expected.density);
+  }
+}
+
+TEST(Surface, counts_points_of_different_classes_or_returns_or_heights_at_one_place_each) {
+  std::vector<Sample> samples = scatter(0, 0, 20, 20, 8, 12, house);
+  const auto before = samples.size();
+  samples.push_back({{5, 5, 1}, ground, 1, 1});
+  samples.push_back({{5, 5, 1}, building, 1, 1});
+  samples.push_back({{5, 5, 1}, ground, 1, 2});
+  samples.push_back({{5, 5, 1.001}, ground, 1, 1});
+  samples.push_back({{5, 5, 1}, 7, 1, 1});  // noise counts nowhere
+  const auto made = surface_of(samples, 0.5);
+  EXPECT_EQ(made.counts.points, before + 4);
+  EXPECT_EQ(made.counts.repeated, 0U);
+}
+
+TEST(Surface, keeps_of_points_that_are_given_twice_the_strip_with_the_lowest_number) {
+  auto samples = scatter(0, 0, 40, 40, 8, 12, house);
+  const auto once = samples.size();
+  for (auto& s : samples) s.strip = 7;
+  for (std::size_t i = 0; i < once; ++i) {
+    samples.push_back(samples[i]);
+    samples.back().strip = 3;
+  }
+  const auto made = surface_of(samples, 0.5);
+  EXPECT_EQ(made.counts.points, once);
+  EXPECT_TRUE(made.strips.pairs().empty());
 }
 
 TEST(Surface, of_adjacent_tiles_has_no_gap_and_no_overlap) {

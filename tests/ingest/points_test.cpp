@@ -8,6 +8,7 @@
 #include <map>
 
 #include "ingest/workshop.hpp"
+#include "mansard/formats/las_points.hpp"
 
 namespace mansard::ingest {
 namespace {
@@ -46,6 +47,35 @@ TEST_F(ReadPointsOfClass, fails_where_a_folder_cannot_be_listed) {
   ASSERT_FALSE(points);
   EXPECT_EQ(points.error().code, "file-read");
   EXPECT_EQ(points.error().subject, at("folder").string());
+}
+
+TEST_F(ReadPointsOfClass, takes_the_classes_that_the_options_name) {
+  const auto cloud = file("cloud.xyz", "x y z class\n1 2 3 67\n4 5 6 6\n7 8 9 2\n");
+  const auto z_of = [&](const char* buildings) {
+    Options options;
+    options.cloud.building_classes = buildings;
+    std::vector<double> out;
+    const auto points = read_points_of_class({cloud}, building, {}, options);
+    EXPECT_TRUE(points) << base::to_string(points.error());
+    if (points)
+      for (const auto& p : *points) out.push_back(p.z);
+    return out;
+  };
+  EXPECT_THAT(z_of("6"), testing::ElementsAre(6));
+  EXPECT_THAT(z_of("6,67"), testing::ElementsAre(3, 6));
+  EXPECT_THAT(z_of("67"), testing::ElementsAre(3));
+  Options wrong;
+  wrong.cloud.building_classes = "roofs";
+  EXPECT_EQ(read_points_of_class({cloud}, building, {}, wrong).error().code, "option-value");
+}
+
+TEST_F(ReadPointsOfClass, has_points_of_clouds_that_overlap_once) {
+  const auto west = file("west.xyz", "x y z class\n1 2 3 6\n4 5 6 6\n"),
+             east = file("east.xyz", "x y z class\n7 8 9 6\n4 5 6 6\nnan 5 6 6\n");
+  const auto points = read_points_of_class({west, east}, building, {}, {});
+  ASSERT_TRUE(points) << base::to_string(points.error());
+  EXPECT_THAT(*points,
+              testing::ElementsAre(geometry::Point3{1, 2, 3}, geometry::Point3{4, 5, 6}, geometry::Point3{7, 8, 9}));
 }
 
 /// Points of 16 to a square metre, text PLY.
@@ -146,6 +176,143 @@ TEST_F(CloudClasses, are_buildings_where_they_are_said_to_be) {
   const auto wrong = read("6;67");
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().code, "option-value");
+}
+
+/// A house on ground, whose points are in several files.
+class CloudsTwice : public test::Workshop {
+ protected:
+  using Points = std::vector<formats::CloudPoint>;
+  /// 4 points/m² on 40 m by 40 m, at places that are no grid.
+  static auto house() -> Points {
+    Points out;
+    for (int row = 0; row < 80; ++row)
+      for (int column = 0; column < 80; ++column) {
+        auto& p = out.emplace_back();
+        const double x = 0.5 * column + 0.004 * ((7 * row + 3 * column) % 100), y = 0.5 * row + 0.004 * (column % 100);
+        const bool roof = x > 10 && x < 30 && y > 10 && y < 25;
+        p.position = {x, y, roof ? 6 - 0.1 * std::round(10 * std::abs(y - 17)) / 10 : 0.01 * (row % 3)};  // as LAS has
+        p.classification = roof ? 6 : 2;
+      }
+    return out;
+  }
+  [[nodiscard]] auto las(const std::string& name, const Points& points) const -> fs::path {
+    const auto bytes = formats::las(points, {});
+    EXPECT_TRUE(bytes);
+    return file(name, *bytes);
+  }
+  [[nodiscard]] auto xyz(const std::string& name, const Points& points) const -> fs::path {
+    std::string out = "x y z class point_source_id\n";
+    for (const auto& p : points)
+      out += base::to_text(p.position.x) + " " + base::to_text(p.position.y) + " " + base::to_text(p.position.z) + " " +
+             std::to_string(p.classification) + " " + std::to_string(p.source) + "\n";
+    return file(name, out);
+  }
+  struct Read {
+    model::Scene scene;
+    std::map<std::string, std::string> warnings;
+  };
+  static auto read_clouds(const std::vector<fs::path>& clouds) -> Read {
+    Options options;
+    options.crs = "local";
+    auto scene = read_scene(clouds, {}, options);
+    EXPECT_TRUE(scene) << base::to_string(scene.error());
+    Read out;
+    for (const auto& warning : scene->warnings) out.warnings[warning.code] = warning.message;
+    out.scene = std::move(*scene);
+    return out;
+  }
+  static void expect_same(const Read& made, const Read& expected) {
+    EXPECT_EQ(made.scene.mesh.vertices, expected.scene.mesh.vertices);
+    EXPECT_EQ(made.scene.mesh.triangles, expected.scene.mesh.triangles);
+    EXPECT_EQ(made.scene.mesh.points, expected.scene.mesh.points);
+    // The cells, and how many points there are.
+    const auto until = [](const std::string& text) { return text.substr(0, text.find(" (")); };
+    EXPECT_EQ(until(made.warnings.at("ingest-points-surface")), until(expected.warnings.at("ingest-points-surface")));
+  }
+};
+
+TEST_F(CloudsTwice, are_one_cloud_and_both_files_are_named) {
+  const auto points = house();
+  const auto once = read_clouds({las("a.las", points)});
+  EXPECT_FALSE(once.warnings.contains("ingest-points-twice"));
+  auto turned = points;
+  std::ranges::reverse(turned);
+  const auto twice = read_clouds({at("a.las"), las("b.las", turned)});
+  expect_same(twice, once);
+  EXPECT_THAT(twice.warnings.at("ingest-points-twice"),
+              testing::HasSubstr(at("a.las").string() + " and " + at("b.las").string() +
+                                 " have the same points; 6400 of 12800 points (50.0 %)"));
+  const auto thrice = read_clouds({at("a.las"), at("b.las"), xyz("c.xyz", points)});
+  expect_same(thrice, once);
+  EXPECT_THAT(thrice.warnings.at("ingest-points-twice"), testing::HasSubstr(at("c.xyz").string() + " have the same"));
+  const auto same_file = read_clouds({at("a.las"), at("a.las")});
+  expect_same(same_file, once);
+  EXPECT_TRUE(same_file.warnings.contains("ingest-points-twice"));
+}
+
+TEST_F(CloudsTwice, that_overlap_have_each_point_once_and_the_share_is_said) {
+  const auto points = house();
+  const auto once = read_clouds({las("a.las", points)});
+  Points west, east;
+  for (const auto& p : points) {
+    if (p.position.x < 25) west.push_back(p);
+    if (p.position.x > 20) east.push_back(p);
+  }
+  const auto both = read_clouds({las("west.las", west), las("east.las", east)});
+  expect_same(both, once);
+  const auto& said = both.warnings.at("ingest-points-twice");
+  EXPECT_THAT(said, testing::HasSubstr(std::to_string(west.size() + east.size() - points.size()) + " of " +
+                                       std::to_string(west.size() + east.size()) + " points (11.1 %)"));
+  EXPECT_THAT(said, testing::HasSubstr("clouds overlap, or a file has points twice"));
+}
+
+TEST_F(CloudsTwice, in_one_file_have_the_density_of_one) {
+  // 1.3 points/m²: twice as many would make cells of 1 m instead of 2 m.
+  auto points = house();
+  std::erase_if(points, [i = 0](const auto&) mutable { return i++ % 3 != 0; });
+  const auto once = read_clouds({las("a.las", points)});
+  auto twice = points;
+  twice.insert(twice.end(), points.begin(), points.end());
+  expect_same(read_clouds({las("b.las", twice)}), once);
+}
+
+TEST_F(CloudsTwice, in_one_file_of_many_pieces_have_the_density_of_one) {
+  // 1.3 points/m², for which cells are 2 m, and eleven pieces of 65,536 points where each point is there twice.
+  Points once;
+  for (int row = 0; row < 600; ++row)
+    for (int column = 0; column < 600; ++column) {
+      auto& p = once.emplace_back();
+      p.position = {0.877 * column + 0.004 * (row % 50), 0.877 * row + 0.004 * (column % 50), 0.01 * (row % 3)};
+      p.classification = 2;
+    }
+  const auto expected = read_clouds({las("a.las", once)});
+  EXPECT_THAT(expected.warnings.at("ingest-points-surface"), testing::HasSubstr("in cells of 2 m"));
+  auto twice = once;
+  twice.insert(twice.end(), once.begin(), once.end());
+  const auto made = read_clouds({las("b.las", twice)});
+  expect_same(made, expected);
+  EXPECT_THAT(made.warnings.at("ingest-points-twice"), testing::HasSubstr("360000 of 720000 points (50.0 %)"));
+}
+
+TEST_F(CloudsTwice, are_not_found_where_a_few_points_are_at_one_place_by_accident) {
+  auto points = house();
+  points.insert(points.end(), points.begin(), points.begin() + 60);
+  EXPECT_FALSE(read_clouds({las("a.las", points)}).warnings.contains("ingest-points-twice"));
+}
+
+TEST_F(CloudsTwice, of_strips_that_differ_in_height_are_told) {
+  // Two strips of 4 points/m² each, the second 0.1 m higher.
+  auto first = house(), second = house();
+  for (auto& p : first) p.source = 11;
+  for (auto& p : second) {
+    p.source = 12;
+    p.position = p.position + geometry::Point3{0.11, 0.07, 0.1};
+  }
+  const auto told = read_clouds({las("a.las", first), xyz("b.xyz", second)});
+  EXPECT_THAT(told.warnings.at("ingest-points-strips"),
+              testing::ContainsRegex("height: strip 12 is 0.(09[5-9]|10[0-5]) ± 0.00[1-9] m above strip 11, over "));
+  EXPECT_THAT(told.warnings.at("ingest-points-strips"), testing::EndsWith("; heights of models are between them"));
+  EXPECT_FALSE(read_clouds({at("a.las")}).warnings.contains("ingest-points-strips"));
 }
 
 /// Why a cloud is none that can be used.

@@ -169,6 +169,29 @@ TEST(BakeClouds, leaves_out_ground_vegetation_noise_and_all_but_last_returns) {
   expect_same_pixels(*baked, *expected);
 }
 
+TEST(BakeClouds, takes_classes_for_what_the_options_say) {
+  const auto solids = exact_solids();
+  const test::Scratch folder;
+  const auto good = cloud_of(12);
+  const auto expected = bake(solids, *scan_of({las_file(folder / "a.las", good)}, solids), {}, side);
+  auto points = good;
+  for (auto& p : points) p.classification = 67;
+  for (const auto& p : good) {
+    auto bad = p;
+    bad.colour = {65535, 1, 65535};
+    for (const int kind : {65, 66}) {
+      bad.classification = static_cast<std::uint8_t>(kind);
+      points.push_back(bad);
+    }
+  }
+  cloud::Options classes;
+  classes.building_classes = "6,67", classes.ground_classes = "2,66", classes.left_out_classes = "65";
+  const auto scan = scan_of({las_file(folder / "b.las", points)}, solids, nullptr, {}, classes);
+  const auto baked = bake(solids, *scan, {}, side);
+  ASSERT_TRUE(expected && baked);
+  expect_same_pixels(*baked, *expected);
+}
+
 TEST(BakeClouds, colours_no_wall_by_level_ground_that_is_not_classified) {
   const auto solids = exact_solids();
   const test::Scratch folder;

@@ -57,13 +57,14 @@ inline auto box_of(const std::vector<model::LabelledSolid>& solids) -> geometry:
 
 /// A scan from files, around the solids. `told` are the warnings of reading.
 inline auto scan_of(const std::vector<std::filesystem::path>& meshes, const std::vector<model::LabelledSolid>& solids,
-                    std::vector<base::Diagnostic>* told = nullptr, const model::Frame& frame = {})
-    -> std::unique_ptr<Scan> {
+                    std::vector<base::Diagnostic>* told = nullptr, const model::Frame& frame = {},
+                    const cloud::Options& cloud = {}) -> std::unique_ptr<Scan> {
   auto scan = Scan::open(64);
   EXPECT_TRUE(scan);
   (*scan)->expect(box_of(solids));
   ingest::Options options;
   options.crs = "local";
+  options.cloud = cloud;
   const auto read = texture::read(**scan, meshes, options, frame);
   EXPECT_TRUE(read) << (read ? "" : base::to_string(read.error()));
   if (told != nullptr && read) *told = *read;

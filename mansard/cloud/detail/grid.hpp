@@ -21,7 +21,8 @@ struct Point {
   std::int32_t x = 0, y = 0;  ///< from the window's south-west corner
   std::int32_t z = 0;
   std::uint8_t classification = 0;
-  std::uint8_t flags = 0;  ///< see below
+  std::uint8_t flags = 0;    ///< see below
+  std::uint16_t source = 0;  ///< the strip; 0: not known
 };
 constexpr std::uint8_t only_return = 1, last_return = 2;
 

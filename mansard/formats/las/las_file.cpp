@@ -9,6 +9,7 @@
 #include "mansard/formats/las/chunk_table.hpp"
 #include "mansard/formats/las/las_crs.hpp"
 #include "mansard/formats/las/laz_sandbox.hpp"
+#include "mansard/formats/las/wave_layers.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -24,19 +25,21 @@ enum Item : std::uint16_t {
   point14 = 10,
   rgb14 = 11,
   rgb_nir = 12,
+  wave_packet14 = 13,
   byte14 = 14
 };
 struct ItemSize {
   std::uint16_t type, size;
 };
 
-/// What LASzip compresses a record of the format as.
+/// What LASzip compresses a record of the format as. Formats 4 and 5 are not read.
 auto items_of(int format, std::size_t extra) -> std::vector<ItemSize> {
   std::vector<ItemSize> items{format < 6 ? ItemSize{point10, 20} : ItemSize{point14, 30}};
   if (format == 1 || format == 3) items.push_back({gps_time, 8});
   if (format == 2 || format == 3) items.push_back({rgb, 6});
   if (format == 7) items.push_back({rgb14, 6});
-  if (format == 8) items.push_back({rgb_nir, 8});
+  if (format == 8 || format == 10) items.push_back({rgb_nir, 8});
+  if (has_wave_packet(format)) items.push_back({wave_packet14, wave_packet_bytes});
   if (extra > 0) items.push_back({format < 6 ? byte : byte14, static_cast<std::uint16_t>(extra)});
   return items;
 }
@@ -225,7 +228,20 @@ auto LasFile::records(std::size_t i) const -> base::Result<std::string> {
   if (bytes->view().size() < piece.bytes)
     return base::error("ingest-points-truncated", "the file ends in its points; copy or export it again", name_);
   if (!header_.compressed) return std::string(bytes->view());
-  return decode_chunk(bytes->view(), header_.format, header_.record_length, piece.points, name_);
+  return decoded(bytes->view(), piece.points);
+}
+
+auto LasFile::decoded(std::string_view chunk, std::uint64_t points) const -> base::Result<std::string> {
+  if (!has_wave_packet(header_.format))
+    return decode_chunk(chunk, header_.format, header_.record_length, points, name_);
+  const auto without = without_wave_packets(chunk, header_.format, header_.record_length, points, name_);
+  if (!without) return without.failure();
+  return decode_chunk(*without, header_.format == 9 ? 6 : 8, bytes_of_record(), points, name_);
+}
+
+auto LasFile::bytes_of_record() const -> std::size_t {
+  const bool without = header_.compressed && has_wave_packet(header_.format);
+  return header_.record_length - (without ? wave_packet_bytes : 0);
 }
 
 auto LasFile::read(std::size_t i) const -> base::Result<std::vector<CloudPoint>> {
@@ -233,8 +249,9 @@ auto LasFile::read(std::size_t i) const -> base::Result<std::vector<CloudPoint>>
   if (!bytes) return bytes.failure();
   std::vector<CloudPoint> out(static_cast<std::size_t>(pieces_[i].points));
   const bool wide = header_.format >= 6;
+  const std::size_t length = bytes_of_record();
   for (std::size_t k = 0; k < out.size(); ++k) {
-    const auto record = std::string_view(*bytes).substr(k * header_.record_length, header_.record_length);
+    const auto record = std::string_view(*bytes).substr(k * length, length);
     CloudPoint& point = out[k];
     const auto along = [&](std::size_t axis) {
       return header_.offset[axis] + header_.scale[axis] * number_at<std::int32_t>(record, 4 * axis);
@@ -246,6 +263,8 @@ auto LasFile::read(std::size_t i) const -> base::Result<std::vector<CloudPoint>>
     point.returns = wide ? returns >> 4U : returns >> 3U & 7U;
     point.classification = wide ? static_cast<std::uint8_t>(record[16]) : flags & 31U;
     point.withheld = (wide ? flags & 4U : flags & 128U) != 0;
+    const auto source = number_at<std::uint16_t>(record, wide ? 20 : 18);
+    point.source = source != 0 ? source : header_.source;
     if (has_colour(header_.format))
       for (std::size_t c = 0; c < 3; ++c)
         point.colour[c] = number_at<std::uint16_t>(record, colour_at(header_.format) + 2 * c);

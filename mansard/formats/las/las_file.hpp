@@ -16,7 +16,7 @@ class LasFile : public PointCloud {
   [[nodiscard]] static auto open(const std::filesystem::path& path) -> base::Result<std::unique_ptr<LasFile>>;
 
   [[nodiscard]] auto header() const -> const LasHeader& { return header_; }
-  /// The records of a piece, as uncompressed LAS has them. Fails as `read` does.
+  /// The records of a piece, as uncompressed LAS has them; those of LAZ without wave packets. Fails as `read` does.
   [[nodiscard]] auto records(std::size_t piece) const -> base::Result<std::string>;
 
   [[nodiscard]] auto info() const -> const PointInfo& override { return info_; }
@@ -38,6 +38,9 @@ class LasFile : public PointCloud {
   [[nodiscard]] auto check_items(const LasRecord& record) const -> base::Result<void>;
   [[nodiscard]] auto chunks(std::uint32_t chunk_size) -> base::Result<void>;
   [[nodiscard]] auto nodes() -> bool;
+  [[nodiscard]] auto decoded(std::string_view chunk, std::uint64_t points) const -> base::Result<std::string>;
+  /// Of what records() gives.
+  [[nodiscard]] auto bytes_of_record() const -> std::size_t;
   void describe();
 
   std::filesystem::path path_;

@@ -87,6 +87,8 @@ auto length_of_format(int format) -> std::size_t {
   return format >= 0 && format < static_cast<int>(lengths.size()) ? lengths[static_cast<std::size_t>(format)] : 0;
 }
 
+auto has_wave_packet(int format) -> bool { return format == 4 || format == 5 || format == 9 || format == 10; }
+
 auto read_las_header(const RangeFile& file, const std::string& name) -> base::Result<LasHeader> {
   const auto bad = [&](const std::string& what) {
     return base::error("ingest-points-format", what + "; copy or export it again", name);
@@ -112,6 +114,7 @@ auto read_las_header(const RangeFile& file, const std::string& name) -> base::Re
                        " is not read; convert to one of 1.0 to 1.4");
   if (bytes.size() < header_length(header.minor)) return truncated();
   const auto header_size = number_at<std::uint16_t>(bytes, 94);
+  if (header.minor > 0) header.source = number_at<std::uint16_t>(bytes, 4);  // reserved in LAS 1.0
   header.wkt = (number_at<std::uint16_t>(bytes, 6) & 16U) != 0;
   header.point_offset = number_at<std::uint32_t>(bytes, 96);
   const auto kind = static_cast<unsigned char>(bytes[104]);
@@ -124,14 +127,13 @@ auto read_las_header(const RangeFile& file, const std::string& name) -> base::Re
 
   if (length_of_format(header.format) == 0)
     return bad("point format " + std::to_string(header.format) + " does not exist; the formats are 0 to 10");
-  // Of the formats with waveforms a record is that of another one with 29 bytes more, which are not read.
-  if (header.compressed && (header.format == 4 || header.format == 5 || header.format == 9 || header.format == 10))
+  // Of the formats with waveforms a record is that of another one with 29 bytes more, which are not read. In LAZ they
+  // are a layer of formats 9 and 10; in 4 and 5 they are coded between the other attributes, and the decoder lacks
+  // them.
+  if (header.compressed && header.format < 6 && has_wave_packet(header.format))
     return unsupported("point format " + std::to_string(header.format) +
-                       " has waveforms, which are not read from LAZ; convert to LAS, or to format " +
-                       std::to_string(header.format == 4   ? 1
-                                      : header.format == 5 ? 3
-                                      : header.format == 9 ? 6
-                                                           : 8));
+                       " has waveforms, and is not read from LAZ; convert it to LAS with laszip, or to point format " +
+                       (header.format == 4 ? "1" : "3") + " with las2las");
   if (header.record_length < length_of_format(header.format))
     return bad("its points have " + std::to_string(header.record_length) + " bytes each, and format " +
                std::to_string(header.format) + " has " + std::to_string(length_of_format(header.format)));

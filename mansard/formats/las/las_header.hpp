@@ -31,7 +31,8 @@ struct LasRecord {
 };
 
 struct LasHeader {
-  int minor = 0;  ///< LAS 1.minor
+  int minor = 0;             ///< LAS 1.minor
+  std::uint16_t source = 0;  ///< file source ID: that of points whose own is 0
   std::uint32_t point_offset = 0;
   int format = 0;
   bool compressed = false;
@@ -48,6 +49,10 @@ struct LasHeader {
 
 /// Bytes of a record of the format, without extra ones; 0 for formats that are not known.
 [[nodiscard]] auto length_of_format(int format) -> std::size_t;
+
+/// Whether records of the format say where the waveform of the return is, in this many bytes before the extra ones.
+[[nodiscard]] auto has_wave_packet(int format) -> bool;
+inline constexpr std::size_t wave_packet_bytes = 29;
 
 /// What is in the header is checked by itself and against the size of the file; records that run past the points are
 /// left out with the warning "ingest-points-records". Fails with "ingest-points-format", "ingest-points-truncated",

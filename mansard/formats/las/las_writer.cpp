@@ -66,6 +66,7 @@ auto las(std::span<const CloudPoint> points, const model::Frame& frame) -> base:
     bytes[14] = static_cast<char>((p.return_number & 15U) | (p.returns & 15U) << 4U);
     bytes[15] = static_cast<char>(p.withheld ? 4 : 0);
     bytes[16] = static_cast<char>(p.classification);
+    put(bytes, 20, p.source);
     for (std::size_t c = 0; coloured && c < 3; ++c) put(bytes, plain_size + 2 * c, p.colour[c]);
     out.append(bytes);
     if (p.return_number >= 1 && p.return_number <= by_return.size()) ++by_return[p.return_number - 1U];

@@ -17,7 +17,7 @@ using namespace ply;
 using Target = PointField;
 
 auto target_of(std::string_view name) -> Target {
-  static constexpr std::array<std::pair<std::string_view, Target>, 22> names{{
+  static constexpr std::array<std::pair<std::string_view, Target>, 25> names{{
       {"x", Target::x},
       {"y", Target::y},
       {"z", Target::z},
@@ -31,6 +31,9 @@ auto target_of(std::string_view name) -> Target {
       {"number_of_returns", Target::returns},
       {"NumberOfReturns", Target::returns},
       {"scalar_NumberOfReturns", Target::returns},
+      {"point_source_id", Target::source},
+      {"PointSourceId", Target::source},
+      {"scalar_PointSourceId", Target::source},
       {"intensity", Target::intensity},
       {"Intensity", Target::intensity},
       {"scalar_Intensity", Target::intensity},

@@ -9,7 +9,7 @@
 
 namespace mansard::formats {
 
-enum class PointField { none, x, y, z, classification, return_number, returns, intensity, red, green, blue };
+enum class PointField { none, x, y, z, classification, return_number, returns, source, intensity, red, green, blue };
 
 template <class T>
 [[nodiscard]] auto clamped(double value) -> T {
@@ -30,6 +30,7 @@ inline void put(CloudPoint& point, PointField field, double value) {
     case PointField::classification: point.classification = clamped<std::uint8_t>(value); break;
     case PointField::return_number: point.return_number = clamped<std::uint8_t>(value); break;
     case PointField::returns: point.returns = clamped<std::uint8_t>(value); break;
+    case PointField::source: point.source = clamped<std::uint16_t>(value); break;
     case PointField::intensity: point.intensity = clamped<std::uint16_t>(value); break;
     case PointField::red: point.colour[0] = clamped<std::uint16_t>(value); break;
     case PointField::green: point.colour[1] = clamped<std::uint16_t>(value); break;

@@ -19,7 +19,7 @@ class CloudInMemory : public PointCloud {
       : points_(std::move(points)), info_(std::move(info)), input_(std::move(input)) {
     info_.points = points_.size();
     geometry::Box3 box;
-    for (const auto& [at, classification, number, returns, withheld, intensity, colour] : points_)
+    for (const auto& [at, classification, number, returns, withheld, source, intensity, colour] : points_)
       if (std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z)) box.add(at);
     if (!box.empty()) info_.stated_bounds = box;
   }

@@ -21,7 +21,7 @@ namespace {
 using Column = PointField;
 
 /// Names in lower case, without units in brackets.
-constexpr std::array<std::pair<std::string_view, Column>, 38> names{{
+constexpr std::array<std::pair<std::string_view, Column>, 42> names{{
     {"x", Column::x},
     {"e", Column::x},
     {"east", Column::x},
@@ -48,6 +48,10 @@ constexpr std::array<std::pair<std::string_view, Column>, 38> names{{
     {"number_of_returns", Column::returns},
     {"numberofreturns", Column::returns},
     {"num_returns", Column::returns},
+    {"point_source", Column::source},
+    {"point_source_id", Column::source},
+    {"pointsourceid", Column::source},
+    {"scalar_pointsourceid", Column::source},
     {"intensity", Column::intensity},
     {"i", Column::intensity},
     {"scalar_intensity", Column::intensity},

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "mansard/base/stopped.hpp"
+#include "mansard/cloud/classes.hpp"
 #include "mansard/formats/points.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
 
@@ -12,16 +13,15 @@ namespace {
 using formats::CloudPoint;
 
 /// What cannot be the surface of a building nor the ground around it: noise, vegetation and wires by class, and what a
-/// pulse went through.
-auto is_surface(const CloudPoint& p) -> bool {
+/// pulse went through. `as`: the class that the point's is taken for, here and below.
+auto is_surface(const CloudPoint& p, std::uint8_t as) -> bool {
   constexpr std::array not_surface{3, 4, 5, 7, 13, 14, 15, 16, 18};
-  return !p.withheld && p.return_number >= p.returns &&
-         std::ranges::find(not_surface, p.classification) == not_surface.end();
+  return !p.withheld && p.return_number >= p.returns && std::ranges::find(not_surface, as) == not_surface.end();
 }
 
-auto is_ground(const CloudPoint& p) -> bool {
+auto is_ground(std::uint8_t as) -> bool {
   constexpr std::array ground{2, 9, 10, 11};
-  return std::ranges::find(ground, p.classification) != ground.end();
+  return std::ranges::find(ground, as) != ground.end();
 }
 
 auto brightest(const std::vector<CloudPoint>& points) -> std::uint16_t {
@@ -52,6 +52,8 @@ auto spare_bits(const formats::PointCloud& cloud, const base::Run& run) -> base:
 
 auto MeshReading::colours_of_clouds(const geometry::Box2& within, const TakePoints& take, const base::Run& run) const
     -> base::Result<void> {
+  const auto map = cloud::class_map(options_.cloud);
+  if (!map) return map.failure();
   for (const auto& source : sources_) {
     if (!source.cloud || !source.cloud->info().has_colours) continue;
     const auto& cloud = *source.cloud;
@@ -81,11 +83,12 @@ auto MeshReading::colours_of_clouds(const geometry::Box2& within, const TakePoin
         std::vector<formats::ColouredPoint> coloured;
         std::vector<geometry::Point3> positions;
         for (const auto& p : *points) {
-          if (!is_surface(p) || std::ranges::max(p.colour) == 0) continue;
+          const std::uint8_t as = (*map)[p.classification];
+          if (!is_surface(p, as) || std::ranges::max(p.colour) == 0) continue;
           auto& point = coloured.emplace_back();
           for (std::size_t c = 0; c < 3; ++c)
             point.colour[c] = formats::linear_of(static_cast<std::uint8_t>(std::min(p.colour[c] >> shift, 255)));
-          point.ground = is_ground(p);
+          point.ground = is_ground(as);
           positions.push_back(p.position);
         }
         if (source.way) source.way->take(positions);

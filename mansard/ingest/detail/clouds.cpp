@@ -4,13 +4,14 @@
 #include <cmath>
 #include <mutex>
 
-#include "mansard/base/statistics.hpp"
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/cloud/classes.hpp"
 #include "mansard/cloud/cloud.hpp"
+#include "mansard/ingest/detail/cloud_density.hpp"
 #include "mansard/ingest/detail/cloud_pieces.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
+#include "mansard/ingest/detail/same_clouds.hpp"
 
 namespace mansard::ingest::detail {
 namespace {
@@ -47,56 +48,6 @@ auto measured(const formats::PointCloud& cloud, const base::Run& run) -> base::R
   Box2 all;
   for (const auto& box : boxes) all.include(box);
   return all;
-}
-
-/// Clouds are often cut out along a street, or of one building: the box around them is mostly empty then. Points in
-/// a square of a metre that has any, the median: edges and single points in the air count little. Of some pieces of the
-/// cloud, evenly spaced. Pieces with a box are levels of an index, each with a part of the points at its place, and say
-/// nothing: 0.
-auto density_where_points_are(const formats::PointCloud& cloud, const std::optional<crs::WayOfMesh>& way,
-                              const base::Run& run) -> base::Result<double> {
-  // Pieces of 50,000 points in most files. Of a file with few, all of them together: strips that overlap follow each
-  // other in it. Of others some, each for itself.
-  constexpr std::size_t few = 8, some = 4;
-  const bool together = cloud.pieces() <= few;
-  const std::size_t most = together ? cloud.pieces() : some;
-  std::vector<std::vector<std::array<double, 2>>> squares(most);
-  std::vector<std::optional<base::Failure>> failures(most);
-  base::parallel_for(most, [&](std::size_t k) {
-    const std::size_t piece = k * cloud.pieces() / most;
-    if (run.cancelled() || cloud.box_of(piece)) return;
-    const auto points = cloud.read(piece);
-    if (!points) {
-      failures[k] = points.failure();
-      return;
-    }
-    std::vector<Point3> positions;
-    for (const auto& p : *points)
-      if (finite(p.position)) positions.push_back(p.position);
-    if (way) way->take(positions);
-    squares[k].reserve(positions.size());
-    for (const auto& p : positions) squares[k].push_back({std::floor(p.x), std::floor(p.y)});
-  });
-  for (const auto& failure : failures)
-    if (failure) return *failure;
-  if (together) {
-    std::vector<std::array<double, 2>> all;
-    for (const auto& piece : squares) all.insert(all.end(), piece.begin(), piece.end());
-    squares.assign(1, std::move(all));
-  }
-  std::vector<double> densities;
-  for (auto& piece : squares) {
-    if (piece.empty()) continue;
-    std::ranges::sort(piece);
-    std::vector<double> counts;
-    for (auto at = piece.begin(); at != piece.end();) {
-      const auto end = std::upper_bound(at, piece.end(), *at);
-      counts.push_back(static_cast<double>(end - at));
-      at = end;
-    }
-    densities.push_back(base::median(std::move(counts)));
-  }
-  return densities.empty() ? 0 : base::median(std::move(densities));
 }
 
 auto percent(std::uint64_t part, std::uint64_t whole) -> std::string {
@@ -213,7 +164,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     if (clouds.size() > few) continue;
     const auto seen = density_where_points_are(*source->cloud, source->way, run);
     if (!seen) return seen.failure();
-    densities.back() = std::max(densities.back(), *seen);
+    densities.back() = std::max(densities.back() * seen->share_of_once, seen->density);
   }
   const auto none = [&](const std::string& what) { return base::error("ingest-points-empty", what, subject); };
   if (densities.empty()) {
@@ -233,6 +184,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   auto& surface = **opened;
 
   Read read;
+  std::vector<NamedFingerprint> fingerprints;
   std::mutex mutex;
   std::uint64_t opened_points = 0;
   for (const auto* source : clouds) {
@@ -258,6 +210,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
       const auto own = cloud.box_of(i);
       if (!box || !own || own->plan().overlaps(*box)) wanted.push_back(i);
     }
+    auto& fingerprint = fingerprints.emplace_back(source->path.string(), Fingerprint{}).of;
     std::vector<std::optional<base::Failure>> failures(wanted.size());
     base::parallel_for(wanted.size(), [&](std::size_t i) {
       if (run.cancelled()) return;
@@ -273,15 +226,18 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
       std::vector<cloud::Sample> samples;
       samples.reserve(points->size());
       Read own;
+      Fingerprint own_print;
       for (std::size_t k = 0; k < points->size(); ++k) {
         const auto& p = (*points)[k];
         const std::uint8_t as = (*map)[p.classification];
         own.add(p, as);
-        if (!p.withheld) samples.push_back({positions[k], as, p.return_number, p.returns});
+        own_print.add(positions[k], as);
+        if (!p.withheld) samples.push_back({positions[k], as, p.return_number, p.returns, p.source});
       }
       surface.add(samples, within);
       const std::scoped_lock lock(mutex);
       read.include(own);
+      fingerprint.include(own_print);
     });
     if (run.cancelled()) return base::stopped();
     for (const auto& failure : failures)
@@ -295,6 +251,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   std::vector<formats::MeshPiece> pieces(tiles.size());
   std::vector<cloud::GroundTile> grounds(tiles.size());
   cloud::Counts counts;
+  cloud::StripOverlaps strips;
   base::parallel_for(tiles.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
     auto made = surface.make(tiles[i]);
@@ -309,6 +266,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     if (cells_ != nullptr) into_cells(pieces[i]);
     const std::scoped_lock lock(mutex);
     counts.include(made->counts);
+    strips.include(made->strips);
   });
   if (run.cancelled()) return base::stopped();
   for (const auto& piece : pieces)
@@ -333,6 +291,13 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   warnings_.push_back(base::warning(
       "ingest-points-surface",
       in_words(counts, density, cell, out.ground.has_value(), cloud::classes_in_words(read.classes, *map)), subject));
+  if (auto twice = repeated_in_words(fingerprints, counts); !twice.empty())
+    warnings_.push_back(base::warning("ingest-points-twice", std::move(twice), subject));
+  if (const auto differ = cloud::differences_in_words(cloud::strip_differences(strips)); !differ.empty())
+    warnings_.push_back(base::warning(
+        "ingest-points-strips",
+        "flight strips (point source IDs) differ in height: " + differ + "; heights of models are between them",
+        subject));
   if (const auto unknown = cloud::unknown_classes(read.classes, *map); !unknown.empty())
     warnings_.push_back(base::warning(
         "ingest-points-classes",
