@@ -264,7 +264,7 @@ auto Surface::make(const Tile& tile) const -> base::Result<TileSurface> {
   const std::int64_t side = cell_ * tile_cells, border = cell_ * halo;
   const std::int64_t x = tile.first * side, y = tile.second * side;
   std::tie(out.ground, out.counts.ground_cells) = ground_of(metres.points(), cell_, x, y);
-  out.strips = detail::compare_strips(metres, options_.roughness);
+  out.strips = detail::compare_strips(metres);
   auto mode = options_.buildings;
   if (mode == Buildings::automatic)
     mode = buildings > 0 && static_cast<double>(buildings) >=

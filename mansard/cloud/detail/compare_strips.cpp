@@ -16,6 +16,8 @@ constexpr std::size_t points_of_a_strip = 3;
 /// More strips over one place than a survey flies: what has the lowest numbers is compared.
 constexpr std::size_t most_strips = 8;
 constexpr double steepest = 0.1763;  // tan 10°
+/// m, RMS about the plane: between tiles on a roof (0.05) and plants (0.4 and more).
+constexpr double roughness = 0.2;
 
 /// Whether the height of the point is that of something solid.
 auto is_solid(const Point& p) -> bool {
@@ -67,7 +69,7 @@ auto shares_of(std::vector<Point>& points) -> std::vector<Share> {
 }
 
 /// Planes of one slope through all strips: the slope, where they are flat.
-auto flat_slope(const std::vector<Share>& shares, double roughness) -> std::optional<std::array<double, 2>> {
+auto flat_slope(const std::vector<Share>& shares) -> std::optional<std::array<double, 2>> {
   Share sum;
   for (const auto& s : shares) {
     sum.points += s.points;
@@ -87,7 +89,7 @@ auto flat_slope(const std::vector<Share>& shares, double roughness) -> std::opti
   return std::array{b, c};
 }
 
-void compare_in_cell(std::span<const Point> all, double roughness, StripOverlaps& out) {
+void compare_in_cell(std::span<const Point> all, StripOverlaps& out) {
   const auto solid = [](const Point& p) { return is_solid(p); };
   const auto first = std::ranges::find_if(all, solid);
   // Most cells have one strip.
@@ -103,7 +105,7 @@ void compare_in_cell(std::span<const Point> all, double roughness, StripOverlaps
   }
   const auto shares = shares_of(points);
   if (shares.size() < 2) return;
-  const auto slope = flat_slope(shares, roughness);
+  const auto slope = flat_slope(shares);
   if (!slope) return;
   const auto height = [&](const Share& s) { return s.z - (*slope)[0] * s.x - (*slope)[1] * s.y; };
   for (std::size_t i = 0; i < shares.size(); ++i)
@@ -113,11 +115,10 @@ void compare_in_cell(std::span<const Point> all, double roughness, StripOverlaps
 
 }  // namespace
 
-auto compare_strips(const Metres& metres, double roughness) -> StripOverlaps {
+auto compare_strips(const Metres& metres) -> StripOverlaps {
   StripOverlaps out;
   for (std::int64_t row = 0; row < metres.side(); ++row)
-    for (std::int64_t column = 0; column < metres.side(); ++column)
-      compare_in_cell(metres.points_of(column, row), roughness, out);
+    for (std::int64_t column = 0; column < metres.side(); ++column) compare_in_cell(metres.points_of(column, row), out);
   return out;
 }
 
