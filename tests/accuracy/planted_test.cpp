@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <random>
 #include <utility>
 
 #include "lab/simulate/points.hpp"
@@ -110,6 +111,18 @@ TEST(Accuracy, of_planted_scans_is_measured_within_a_fifth) {  // guarantee 3
     }
   EXPECT_GE(table.rows(), 60);
   EXPECT_GE(table.share(), 0.98);
+}
+
+TEST(Accuracy, of_a_cloud_with_a_stray_at_the_origin_of_its_crs_is_that_without) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 0.03);
+  std::vector<geometry::Point3> roof;
+  for (int x = 0; x < 40; ++x)
+    for (int y = 0; y < 40; ++y) roof.push_back({84800 + 0.4 * x, 447400 + 0.4 * y, 10 + noise(random)});
+  const auto without = noise_of(roof);
+  EXPECT_NEAR(without.noise, 0.03, 0.006);
+  roof.push_back({0, 0, 0});
+  EXPECT_EQ(noise_of(roof).noise, without.noise);
 }
 
 TEST(Accuracy, what_a_plane_leaves_of_noise_is_that_of_the_quadrature) {

@@ -44,6 +44,10 @@ auto between(const std::array<double, 11>& values, double at) -> double {
   return values[next - 1] * std::pow(values[next] / values[next - 1], t);
 }
 
+/// Row and column of a cell: few of them have points where a cloud has strays far away, so that there is no grid.
+using Cell = std::pair<double, double>;
+auto cell_of(const Point3& p) -> Cell { return {std::floor(p.y / cell), std::floor(p.x / cell)}; }
+
 /// The quantile of χ² over its degrees of freedom (Wilson and Hilferty 1931).
 auto chi_square_share(double degrees) -> double {
   constexpr double z = -1.1750;  // of the normal distribution at `even_quantile`
@@ -67,35 +71,17 @@ auto degrees_of_freedom(double t) -> double {
 Cells::Cells(std::vector<Point3> points) : points_(std::move(points)) {
   std::ranges::sort(points_);
   points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
-  const auto box = geometry::Box2::of(points_);
-  if (box.empty()) return;
-  origin_ = {std::floor(box.least.x), std::floor(box.least.y)};
-  columns_ = static_cast<std::size_t>((box.most.x - origin_.x) / cell) + 1;
-  rows_ = static_cast<std::size_t>((box.most.y - origin_.y) / cell) + 1;
-  const auto cell_of = [&](Point3 p) {
-    return static_cast<std::size_t>((p.y - origin_.y) / cell) * columns_ +
-           static_cast<std::size_t>((p.x - origin_.x) / cell);
-  };
-  first_.assign(columns_ * rows_ + 1, 0);
-  for (const Point3 p : points_) ++first_[cell_of(p) + 1];
-  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-  auto next = first_;
-  std::vector<Point3> sorted(points_.size());
-  for (const Point3 p : points_) sorted[next[cell_of(p)]++] = p;
-  points_ = std::move(sorted);
+  std::ranges::stable_sort(points_, {}, cell_of);
 }
 
 template <class See>
 void Cells::each_near(Point2 at, double radius, See see) const {
-  const auto index = [](double v, std::size_t count) {
-    return static_cast<std::size_t>(std::clamp(std::floor(v / cell), 0.0, static_cast<double>(count)));
-  };
-  const Point2 low = at - Point2{radius, radius} - origin_, high = at + Point2{radius, radius} - origin_;
-  if (columns_ == 0 || high.x < 0 || high.y < 0) return;
-  const std::size_t first = index(low.x, columns_), last = std::min(columns_, index(high.x, columns_) + 1);
-  for (std::size_t row = index(low.y, rows_); row < std::min(rows_, index(high.y, rows_) + 1); ++row) {
-    if (first >= last) return;
-    for (std::size_t i = first_[row * columns_ + first]; i < first_[row * columns_ + last]; ++i) {
+  const auto low = cell_of({at.x - radius, at.y - radius, 0}), high = cell_of({at.x + radius, at.y + radius, 0});
+  for (double row = 0; row <= high.first - low.first; ++row) {
+    const Cell from{low.first + row, low.second};
+    const auto begin = std::ranges::lower_bound(points_, from, {}, cell_of);
+    for (auto i = static_cast<std::size_t>(begin - points_.begin()); i < points_.size(); ++i) {
+      if (cell_of(points_[i]) > Cell{from.first, high.second}) break;
       const Point2 off = xy(points_[i]) - at;
       if (dot(off, off) <= radius * radius) see(i, points_[i]);
     }

@@ -46,10 +46,7 @@ class Cells {
   template <class See>
   void each_near(geometry::Point2 at, double radius, See see) const;
 
-  std::vector<geometry::Point3> points_;
-  std::vector<std::size_t> first_;  // per cell, row by row, and the end
-  geometry::Point2 origin_;
-  std::size_t columns_ = 0, rows_ = 0;
+  std::vector<geometry::Point3> points_;  // by cell, row by row
 };
 
 /// Share of the variance of noise with a Gaussian autocorrelation that a plane through a disc leaves, by the disc's
