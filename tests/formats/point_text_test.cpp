@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/scratch.hpp"
+#include "mansard/formats/mesh/mesh_file.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -44,11 +45,12 @@ class PointText : public testing::Test {
 };
 
 TEST_F(PointText, without_a_header_is_x_y_z_by_any_separator) {
-  for (const auto* text : {"1 2 3.5\n-4 5e1 6\n", "1,2,3.5\n-4,5e1,6\n", "1;2;3,5\r\n-4;50;6\r\n",
-                           "1\t2\t3.5\n-4\t50\t6", "\n# made by hand\n  1   2  3.5  \n\n// end\n-4 50 6\n",
-                           "\xEF\xBB\xBF"
-                           "1 2 3.5\n-4 50 6\n",
-                           "2\n1 2 3.5\n-4 50 6\n", "1,2,3.5,\n-4,50,6,\n", "1 2 3.5 17\n-4 50 6 18\n"}) {
+  for (const auto* text :
+       {"1 2 3.5\n-4 5e1 6\n", "1,2,3.5\n-4,5e1,6\n", "1;2;3,5\r\n-4;50;6\r\n", "1\t2\t3.5\n-4\t50\t6",
+        "1,0 2,0 3,5\n-4 50,0 6\n", "1, 2, 3.5\n-4, 50, 6\n", "\n# made by hand\n  1   2  3.5  \n\n// end\n-4 50 6\n",
+        "\xEF\xBB\xBF"
+        "1 2 3.5\n-4 50 6\n",
+        "2\n1 2 3.5\n-4 50 6\n", "1,2,3.5,\n-4,50,6,\n", "1 2 3.5 17\n-4 50 6 18\n"}) {
     PointInfo info;
     const auto points = points_of(text, &info);
     ASSERT_EQ(points.size(), 2U) << text;
@@ -75,6 +77,7 @@ TEST_F(PointText, with_a_header_has_its_columns_in_any_order) {
   EXPECT_THAT(points[0].colour, testing::ElementsAre(255, 128, 0));
   EXPECT_TRUE(info.has_classes && info.has_returns && info.has_colours);
   EXPECT_EQ(points_of("# x y z classification\n1 2 3 2\n")[0].classification, 2) << "a header that is a comment";
+  EXPECT_EQ(points_of("x y z\n1,5 2,5 3,5\n")[0].position, (Point3{1.5, 2.5, 3.5})) << "decimal commas";
   EXPECT_EQ(points_of("//X,Y,Z,Intensity\n1,2,3,700\n")[0].position.z, 3);
 }
 
@@ -108,6 +111,9 @@ TEST_F(PointText, is_told_from_other_text) {
   EXPECT_FALSE(is_point_text(std::string("1 2 3\n\0\0", 8)));
   EXPECT_TRUE(is_point_cloud(file("a.csv", "X;Y;Z\n1;2;3\n")));
   EXPECT_FALSE(is_point_cloud(file("b.csv", "id;height\n1;2\n")));
+  const auto named = read_mesh_file(file("d.csv", "X;Y;Deutung\n1;2;3\n"), UpAxis::automatic);
+  ASSERT_TRUE(named.failure);
+  EXPECT_THAT(named.failure->message, testing::HasSubstr("a header with the columns x, y and z"));
   EXPECT_FALSE(is_point_cloud(file("readme.txt", "Points of the survey of 2026\n")));
   EXPECT_TRUE(is_point_cloud(file("c.pts", "not looked into")));
 }

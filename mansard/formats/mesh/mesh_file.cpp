@@ -49,6 +49,11 @@ auto parse(const MeshBytes& source, MeshPiece& piece) -> base::Result<RawMesh> {
                        "this is a vector file, and a mesh is expected here; give a mesh, a point cloud or a raster of "
                        "heights, and this file as the footprints",
                        name);
+  if (extension == ".csv" || extension == ".txt")
+    return base::error("ingest-mesh-format",
+                       "the text is not a point cloud: its first line is neither numbers nor a header with the columns "
+                       "x, y and z; rename the columns",
+                       name);
   return base::error("ingest-mesh-format", "not a mesh that is read here; give " + titles(&Reads::mesh) + " or GeoTIFF",
                      name);
 }

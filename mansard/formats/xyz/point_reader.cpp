@@ -144,6 +144,15 @@ auto next_line(std::string_view& rest, std::size_t& number) -> std::optional<std
   return std::nullopt;
 }
 
+/// "1,5 2,5 3,5": decimal commas between blanks. "1, 2, 3" is not.
+auto has_decimal_commas(std::string_view line) -> bool {
+  std::vector<std::string_view> fields;
+  split(line, ' ', fields);
+  return fields.size() >= 3 && std::ranges::all_of(fields, [](auto field) {
+           return field.front() != ',' && field.back() != ',' && number_of(field, true);
+         });
+}
+
 struct Layout {
   char separator = ' ';
   bool header = false;
@@ -154,7 +163,8 @@ struct Layout {
 auto layout_of(std::string_view line, std::string& what) -> std::optional<Layout> {
   Layout out;
   out.separator = separator_of(line);
-  const bool commas = out.separator != ' ' && out.separator != ',';
+  if (out.separator == ',' && has_decimal_commas(line)) out.separator = ' ';
+  const bool commas = out.separator != ',';
   std::vector<std::string_view> fields;
   split(line, out.separator, fields);
   out.header = std::ranges::any_of(fields, [&](auto field) { return !number_of(field, commas); });
@@ -206,7 +216,7 @@ auto parse(std::string_view text, const std::string& name, PointInfo& info) -> b
     info.has_colours = info.has_colours || column == Column::red;
   }
   if (layout->header) line = next_line(text, number);
-  const bool commas = layout->separator != ' ' && layout->separator != ',';
+  const bool commas = layout->separator != ',';
   std::vector<CloudPoint> points;
   std::vector<std::string_view> fields;
   for (; line; line = next_line(text, number)) {
