@@ -110,7 +110,8 @@ auto doctor_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
   auto* verb = add_verb(app, "doctor");
   auto request = std::make_shared<DoctorRequest>();
   verb->add_option("INPUTS", request->inputs,
-                   "Meshes: " + readable_formats().meshes + ". Then the footprints: " + readable_formats().footprints)
+                   "Meshes, or point clouds: " + readable_formats().meshes +
+                       ". Then the footprints: " + readable_formats().footprints)
       ->type_name("MESH... FOOTPRINTS");
   verb->add_flag("--json", request->json, "Print JSON");
   add_jobs(*verb, request->jobs);

@@ -73,11 +73,15 @@ auto Join::apply(model::Scene& scene, Progress& progress) const -> base::Result<
 
 void add_to(CLI::App& verb, ScanRequest& request, bool may_derive) {
   verb.add_option("INPUTS", request.inputs,
-                  "Meshes: " + readable_formats().meshes + ". Then the footprints: " + readable_formats().footprints)
+                  "Meshes, or point clouds: " + readable_formats().meshes +
+                      ". Then the footprints: " + readable_formats().footprints)
       ->type_name("MESH... FOOTPRINTS");
   if (may_derive)
     verb.add_flag("--derive-footprints", request.derive_footprints,
                   "Derive the footprints from the meshes; all inputs are meshes then");
+  verb.add_option("--ground-attribute", request.ground_attribute,
+                  "Attribute of the footprints that has the z of the ground, in the heights of the files")
+      ->type_name("NAME");
   verb.add_option("--report", request.report, "Write a copy of the report (run.json) to this file")->type_name("FILE");
   request.join.add_to(verb);
   verb.add_flag("-v,--verbose", request.verbose,
@@ -114,6 +118,7 @@ auto options_of(const ScanRequest& request) -> base::Result<pipeline::Options> {
   if (auto order = check_order(request); !order) return order.failure();
   pipeline::Options options;
   if (auto applied = request.settings.apply(options); !applied) return applied.failure();
+  if (!request.ground_attribute.empty()) options.roof.ground_attribute = request.ground_attribute;
   return options;
 }
 

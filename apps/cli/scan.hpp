@@ -42,6 +42,7 @@ struct ScanRequest : Common {
   std::vector<std::string> inputs;  // meshes, then the footprints
   bool derive_footprints = false;   // then all inputs are meshes
   std::string report;
+  std::string ground_attribute;  ///< of the footprints; roof.ground_attribute
   Join join;
   bool verbose = false;
   std::vector<std::string> words;  ///< the whole command line, from which messages make the command to run instead
