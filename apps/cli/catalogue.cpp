@@ -79,7 +79,7 @@ auto catalogue() -> const std::vector<VerbEntry>& {
        {"mansard doctor", "mansard doctor mesh.ply footprints.gpkg"}},
       {"evaluate",
        inspect,
-       "Compare a building model with a mesh or a point cloud, and with a model that is known to be right",
+       "Compare a building model with a scan, and with a model that is known to be right",
        {"mansard evaluate MODEL MESH... [options]"},
        {"ingest", "cloud", "block", "evaluate", "pipeline"},
        {"--output", "--truth", "--footprints", "--lod", "--error-limit", "--plane-plans", "--crs", "--mesh-offset",
