@@ -11,6 +11,7 @@
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/edit/edit.hpp"
+#include "mansard/formats/points.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/planes/planes.hpp"
 #include "mansard/report/pictures.hpp"
@@ -380,7 +381,7 @@ void measured_planes(const Figures& to, const pipeline::Options& options) {
   const auto& points = block.mesh.points;
   const auto found = planes::find(points, {0.02, 0.14, 1});
   const Point2 middle = 0.5 * (box_of(block.outline).least + box_of(block.outline).most);
-  const Box2 shown{middle - Point2{22, 14}, middle + Point2{22, 14}};
+  const Box2 shown{middle - Point2{18.5, 11.5}, middle + Point2{18.5, 11.5}};
   Drawing drawing(shown, 860);
   std::vector<std::vector<Segment2>> by_plane(found.planes.size());
   std::vector<Segment2> others;
@@ -398,6 +399,101 @@ void measured_planes(const Figures& to, const pipeline::Options& options) {
   for (const auto& member : block.members)
     for (const auto& polygon : member.polygons) drawing.area(polygon, "fill:none;stroke:#d62828;stroke-width:1.5");
   to.put("planes.svg", drawing.svg());
+}
+
+using Kept = std::function<bool(const formats::CloudPoint&)>;
+
+/// The points of a cloud that are kept, beside the models that the program makes of these: within `street` of the
+/// footprints, as squares of twice `half`.
+void points_and_models(const Figures& to, const std::string& name, const std::vector<formats::CloudPoint>& cloud,
+                       const fs::path& footprints, pipeline::Options options, const Kept& kept, double half,
+                       double street, const picture::View& view) {
+  std::vector<formats::CloudPoint> points;
+  std::ranges::copy_if(cloud, std::back_inserter(points), kept);
+  std::string text = "x,y,z,class\n";
+  for (const auto& p : points)
+    text += base::to_text(p.position.x, 3) + "," + base::to_text(p.position.y, 3) + "," +
+            base::to_text(p.position.z, 3) + "," + std::to_string(p.classification) + "\n";
+  const auto file = fs::temp_directory_path() / "site_figures.csv";
+  if (auto done = base::write_file(file, text); !done) fail(done.error());
+  const auto scene = need(ingest::read_scene({file}, footprints, options.ingest));
+  fs::remove(file);
+  const auto city = need(pipeline::reconstruct(scene, options)).city;
+  const auto models = report::textured_models(city, formats::Solids::building);
+
+  geometry::Box3 box;
+  for (const auto& v : models.mesh.vertices) box.add(v);
+  std::vector<Polygon> near;
+  for (const auto& footprint : scene.footprints)
+    for (const auto& polygon : footprint.polygons)
+      std::ranges::copy(need(geometry::buffer(polygon, street)), std::back_inserter(near));
+  const auto& origin = scene.frame.origin;
+  picture::Layer dots, pale;
+  for (const auto& point : points) {
+    const geometry::Point3 p =
+        point.position - geometry::Point3{double(origin[0]), double(origin[1]), double(origin[2])};
+    if (!geometry::contains(near, geometry::xy(p))) continue;
+    const bool classified = point.classification != 0;
+    const bool roof = classified ? point.classification == 6 : p.z > box.least.z + 1.5;
+    for (auto* layer : {&dots, &pale}) {
+      if (layer == &pale && (roof || point.classification == 1)) continue;  // no trees before the models
+      const auto first = static_cast<std::uint32_t>(layer->mesh.vertices.size());
+      for (const auto& [x, y] : {std::pair{-half, -half}, {half, -half}, {half, half}, {-half, half}})
+        layer->mesh.vertices.push_back({p.x + x, p.y + y, p.z});
+      layer->mesh.triangles.push_back({first, first + 1, first + 2});
+      layer->mesh.triangles.push_back({first, first + 2, first + 3});
+      const picture::Colour colour = layer == &pale              ? picture::Colour{206, 216, 232}
+                                     : !classified               ? picture::mesh_blue
+                                     : roof                      ? picture::Colour{196, 84, 66}
+                                     : point.classification == 2 ? picture::Colour{150, 140, 120}
+                                                                 : picture::Colour{120, 160, 110};
+      layer->colours.insert(layer->colours.end(), 2, colour);
+    }
+  }
+  // Both pictures have the frame of points and models together.
+  for (const auto& v : dots.mesh.vertices) box.add(v);
+  picture::Layer corners;
+  corners.colours = {{250, 250, 250}};
+  for (const auto& p : {box.least, box.most}) {
+    const auto first = static_cast<std::uint32_t>(corners.mesh.vertices.size());
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.001, 0.0}, {0.0, 0.001}})
+      corners.mesh.vertices.push_back({p.x + x, p.y + y, p.z});
+    corners.mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  const std::vector<picture::Image> both{picture::draw(std::vector{dots, corners}, {}, view),
+                                         picture::draw(std::vector{models, pale, corners}, {}, view)};
+  to.put(name, picture::beside(both));
+}
+
+auto all_points(const fs::path& path) -> std::vector<formats::CloudPoint> {
+  const auto cloud = need(formats::open_points(path));
+  std::vector<formats::CloudPoint> points;
+  for (std::size_t i = 0; i < cloud->pieces(); ++i) std::ranges::copy(need(cloud->read(i)), std::back_inserter(points));
+  return points;
+}
+
+/// Points beside the models that are made of them.
+void clouds(const Figures& to, pipeline::Options options) {
+  const picture::View view{.kind = picture::View::Kind::angle, .azimuth = 0.6, .width = 480, .height = 350};
+  const picture::View flat{.kind = picture::View::Kind::angle, .azimuth = 0.5, .width = 500, .height = 230};
+  const auto all = [](const formats::CloudPoint&) { return true; };
+  auto houses = options;
+  houses.ingest.bbox = {84868, 447538, 84880, 447548};  // as in the tutorial
+  const auto delft = all_points(to.data / "delft/points.laz");
+  const auto footprints = to.data / "delft/footprints.geojson";
+  points_and_models(to, "cloud.png", delft, footprints, houses, all, 0.15, 2, view);
+  points_and_models(
+      to, "cloud-buildings.png", delft, footprints, houses, [](const auto& p) { return p.classification == 6; }, 0.15,
+      2, view);
+  // The corners of the hall's mesh, as the tutorial has them: a cloud without classes.
+  const auto hall = need(ingest::read_scene({to.data / "hall/mesh.off"}, to.data / "hall/footprints.geojson", {}));
+  std::vector<formats::CloudPoint> corners;
+  const auto& origin = hall.frame.origin;
+  for (const auto& v : hall.mesh.vertices)
+    corners.push_back({.position = v + geometry::Point3{double(origin[0]), double(origin[1]), double(origin[2])}});
+  points_and_models(
+      to, "cloud-half.png", corners, to.data / "hall/footprints.geojson", options,
+      [](const auto& p) { return p.position.x < -285; }, 0.6, 10, flat);
 }
 
 }  // namespace
@@ -419,4 +515,5 @@ auto main(int count, char** words) -> int {
   surfaces(to, hall, options);
   derived(to, delft);
   measured_planes(to, options);
+  clouds(to, options);
 }
