@@ -145,8 +145,8 @@ auto finish(formats::RawFeature feature, std::string id, const model::Frame& fra
         "ingest-footprint-size",
         "it is " + base::to_text(side, 0) + " m long, longer than any building; check its coordinates and CRS"));
   } else if (!box.overlaps(mesh)) {
-    refuse(
-        base::error("ingest-footprint-outside", "it lies outside the mesh; give the mesh there, or cut with --bbox"));
+    refuse(base::error("ingest-footprint-outside",
+                       "it is outside of the scan; give the scan there, or choose others with --bbox"));
     footprint.polygons = std::move(repaired.polygons);  // written as LoD 0
   } else {
     footprint.polygons = std::move(repaired.polygons);
