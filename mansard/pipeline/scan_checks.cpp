@@ -246,10 +246,10 @@ auto aligned_offset(const accuracy::Registration& found, const std::array<double
   constexpr double least = 0.02;     // m: twice what surveys of footprints are rounded to
   constexpr std::size_t fitted = 3;  // numbers: the offset, and what all walls have in common
   if (found.edges <= fitted) return std::nullopt;
-  // Of two coordinates, a length that chance exceeds as rarely as three standard deviations of one (χ² with two degrees
-  // of freedom: 11.83); of few walls rather more, as Student's t is beyond the normal distribution (Cornish and Fisher
-  // 1938, the first two terms).
-  constexpr double z = 3.44;
+  // Of two coordinates, a length that chance exceeds once in ten thousand scans (χ² with two degrees of freedom:
+  // 18.42): walls beside each other are less independent than the error counts them. Of few walls rather more, as
+  // Student's t is beyond the normal distribution (Cornish and Fisher 1938, the first two terms).
+  constexpr double z = 4.29;
   const auto freedom = static_cast<double>(found.edges - fitted);
   const double limit =
       z + (z * z * z + z) / (4 * freedom) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * freedom * freedom);
