@@ -289,20 +289,20 @@ auto check_scan(const model::Scene& scene, const ingest::MeshCells* cells, const
 auto scan_codes() -> std::vector<base::Code> {
   return {
       {"scan-offset", "The scan is beside the footprints, by more than three times the error of this measurement.",
-       "Give the --mesh-offset of the message, or --align, unless the footprints are what is in the wrong place.", 0},
+       "Give the option of the message, or --align, unless the footprints are what is in the wrong place.", 0},
       {"scan-upside-down", "The scan is upside down: footprints are lower than the ground around them.",
        "Multiply the heights of the scan by -1, or turn it over, before it is read.", 3},
       {"scan-axis", "Another axis of the scan is up than the one that was taken.",
        "Give the --up of the message, or turn the scan before it is read.", 3},
       {"scan-mirrored", "The scan is mirrored.", "Correct the sign or the order of its coordinates.", 3},
-      {"scan-place", "The scan fits its footprints at another place.", "Give the --mesh-offset of the message.", 3},
+      {"scan-place", "The scan fits its footprints at another place.", "Give the option of the message.", 3},
       {"scan-units", "Scan and footprints are in different units.",
        "Multiply the coordinates of the scan by the factor of the message before it is read.", 3},
       {"scan-digits",
        "The coordinates of the scan lie on a coarse grid, as 32-bit floats have it far from their origin. From steps "
        "of "
        "a metre on it is an error.",
-       "Export the scan with an origin near it, or in 64-bit floats, and give the origin as --mesh-offset.", 3},
+       "Export the scan with an origin near it, or in 64-bit floats.", 3},
       {"scan-ground", "The scan shows no ground beside buildings, so their bases are assumed.",
        "Give a terrain model with --dtm, or --ground-attribute or --ground-height.", 0},
       {"scan-coverage", "The scan covers not all footprints.",
