@@ -68,8 +68,10 @@ auto meshes_in(const model::Scene& scene, const ingest::MeshCells* cells, const 
       return;
     }
     const std::vector box{boxes[i]};
-    out[i] = geometry::part_of(*mesh, geometry::triangles_near(*mesh, box).front());
-    for (const auto p : geometry::points_near(mesh->points, box).front()) out[i].points.push_back(mesh->points[p]);
+    const auto triangles = geometry::triangles_near(*mesh, box);
+    const auto points = geometry::points_near(mesh->points, box);  // named: it must outlive the loop
+    out[i] = geometry::part_of(*mesh, triangles.front());
+    for (const auto p : points.front()) out[i].points.push_back(mesh->points[p]);
   });
   if (failure) return *failure;
   return out;
