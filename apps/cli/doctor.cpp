@@ -57,6 +57,16 @@ auto inputs_of(const DoctorRequest& request, const pipeline::Options& options, c
     return all;
   }
   if (!*placing) {
+    // What makes it so may be known: another axis, another unit.
+    const auto scan = pipeline::accuracy_of_scan(paths, options, run);
+    if (!scan && scan.error().code == "cancelled") return scan.failure();
+    const auto findings = scan ? scan->findings : scan.errors();
+    const bool known = std::ranges::any_of(findings, [](const auto& why) {
+      return why.code.starts_with("scan-") || !why.message.ends_with("give --mesh-offset or --crs");
+    });
+    for (const auto& why : findings)
+      if (known) all.push_back({Found::problem, "scan", base::to_string(why), ""});
+    if (known) return all;
     all.push_back({Found::problem, "place",
                    "mesh and footprints do not match, and neither a CRS nor an offset of the mesh was found that makes "
                    "them: they seem to be of different places, or nothing in the mesh rises above its ground",
@@ -71,8 +81,11 @@ auto inputs_of(const DoctorRequest& request, const pipeline::Options& options, c
   if (more.empty()) {
     const auto scan = pipeline::accuracy_of_scan(paths, options, run);
     if (!scan && scan.error().code == "cancelled") return scan.failure();
-    if (scan) all.push_back({Found::fine, "accuracy", accuracy::in_a_sentence(*scan), ""});
-    else
+    if (scan) {
+      all.push_back({Found::fine, "accuracy", accuracy::in_a_sentence(scan->accuracy), ""});
+      for (const auto& why : scan->findings) all.push_back({Found::note, "scan", base::to_string(why), ""});
+    } else
+
       for (const auto& why : scan.errors()) all.push_back({Found::problem, "accuracy", base::to_string(why), ""});
   }
   return all;

@@ -181,7 +181,7 @@ auto check_share(const ReconstructRequest& request) -> base::Result<void> {
 }
 
 auto reconstruct(const ReconstructRequest& request, const base::Cancel& cancel) -> int {
-  const auto options = options_of(request.scan);
+  auto options = options_of(request.scan);
   if (!options) return give_up(options.errors());
   if (auto right = check_share(request); !right) return give_up(right.errors());
   const auto targets = targets_of(request);

@@ -5,6 +5,7 @@
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/shell_word.hpp"
+#include "mansard/base/text.hpp"
 #include "mansard/ingest/join.hpp"
 #include "mansard/pipeline/placing.hpp"
 
@@ -82,6 +83,9 @@ void add_to(CLI::App& verb, ScanRequest& request, bool may_derive) {
   verb.add_option("--ground-attribute", request.ground_attribute,
                   "Attribute of the footprints that has the z of the ground, in the heights of the files")
       ->type_name("NAME");
+  verb.add_flag("--align", request.align,
+                "Move the mesh to the footprints where it is beside them by more than the error of that; run.json has "
+                "the --mesh-offset");
   verb.add_option("--report", request.report, "Write a copy of the report (run.json) to this file")->type_name("FILE");
   request.join.add_to(verb);
   verb.add_flag("-v,--verbose", request.verbose,
@@ -180,23 +184,51 @@ auto explained(base::Failure failure, const ScanRequest& request, const pipeline
   return failure;
 }
 
+/// Sets the offset of the mesh as --align asks for. Returns what was done, to be kept with the warnings.
+auto align(const ScanRequest& request, pipeline::Options& options, const base::Run& run, Progress& progress)
+    -> base::Result<std::vector<base::Diagnostic>> {
+  std::vector<base::Diagnostic> done;
+  if (!request.align || request.derive_footprints) return done;
+  auto offset = pipeline::align_scan(paths_of(request), options, run);
+  if (!offset) return explained(offset.failure(), request, options, run, progress);
+  if (!*offset) {
+    progress.say("--align: the mesh is where the footprints are, as far as that can be measured");
+    return done;
+  }
+  options.ingest.mesh_offset = **offset;
+  std::string words = "--mesh-offset";
+  for (const double value : **offset) words += " " + base::to_text(value);
+  done.push_back(base::warning("scan-aligned", "the mesh was moved to the footprints: " + words));
+  return done;
+}
+
+void prepend(std::vector<base::Diagnostic> first, std::vector<base::Diagnostic>& all) {
+  all.insert(all.begin(), first.begin(), first.end());
+}
+
 }  // namespace
 
-auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run, Progress& progress)
+auto read_scan(const ScanRequest& request, pipeline::Options& options, const base::Run& run, Progress& progress)
     -> base::Result<model::Scene> {
   progress.show("ingest", request.inputs.front(), 0);
+  auto aligned = align(request, options, run, progress);
+  if (!aligned) return aligned.failure();
   auto scene = pipeline::read_inputs(paths_of(request), options, run);
   if (!scene) return explained(scene.failure(), request, options, run, progress);
+  prepend(*std::move(aligned), scene->warnings);
   tell(request, *scene, progress);
   if (auto joined = request.join.apply(*scene, progress); !joined) return joined.failure();
   return scene;
 }
 
-auto read_city_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
-                    Progress& progress) -> base::Result<ingest::CityScene> {
+auto read_city_scan(const ScanRequest& request, pipeline::Options& options, const base::Run& run, Progress& progress)
+    -> base::Result<ingest::CityScene> {
   progress.show("ingest", request.inputs.front(), 0);
+  auto aligned = align(request, options, run, progress);
+  if (!aligned) return aligned.failure();
   auto city = pipeline::read_city_inputs(paths_of(request), options, run);
   if (!city) return explained(city.failure(), request, options, run, progress);
+  prepend(*std::move(aligned), city->scene.warnings);
   tell(request, city->scene, progress);
   if (auto joined = request.join.apply(city->scene, progress); !joined) return joined.failure();
   return city;

@@ -41,6 +41,7 @@ struct Join {
 struct ScanRequest : Common {
   std::vector<std::string> inputs;  // meshes, then the footprints
   bool derive_footprints = false;   // then all inputs are meshes
+  bool align = false;               // moves the mesh to the footprints
   std::string report;
   std::string ground_attribute;  ///< of the footprints; roof.ground_attribute
   Join join;
@@ -65,11 +66,12 @@ void add_to(CLI::App& verb, ScanRequest& request, bool may_derive = true);
 
 /// The inputs as meshes and footprints.
 [[nodiscard]] auto paths_of(const ScanRequest& request) -> pipeline::InputPaths;
-/// Reads meshes and footprints, or derives these from the mesh, and prints the warnings.
-[[nodiscard]] auto read_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
+/// Reads meshes and footprints, or derives these from the mesh, and prints the warnings. With --align, the offset of
+/// the mesh in the options becomes the one with which it is where the footprints are.
+[[nodiscard]] auto read_scan(const ScanRequest& request, pipeline::Options& options, const base::Run& run,
                              Progress& progress) -> base::Result<model::Scene>;
 /// The same; a large mesh is in cells on disk.
-[[nodiscard]] auto read_city_scan(const ScanRequest& request, const pipeline::Options& options, const base::Run& run,
+[[nodiscard]] auto read_city_scan(const ScanRequest& request, pipeline::Options& options, const base::Run& run,
                                   Progress& progress) -> base::Result<ingest::CityScene>;
 
 }  // namespace mansard::cli

@@ -140,7 +140,7 @@ auto write_all(const SegmentRequest& request, const report::Segmented& result, c
 }
 
 auto segment_scan(const SegmentRequest& request, const base::Cancel& cancel) -> int {
-  const auto options = options_of(request.scan);
+  auto options = options_of(request.scan);
   if (!options) return give_up(options.errors());
   if (auto ready = check_outputs(request); !ready) return give_up(ready.errors());
   Progress progress(request.scan.quiet);

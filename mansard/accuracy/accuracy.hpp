@@ -48,6 +48,28 @@ struct Options {
                               std::span<const geometry::Polygon> outline, const Options& options = {})
     -> model::Accuracy;
 
+/// A piece of a scan, and the footprints over it in the same frame. `scene` is of the mesh, which reaches
+/// `most_displaced` beyond the outline.
+struct Piece {
+  const geometry::Mesh* mesh = nullptr;
+  const rays::Scene* scene = nullptr;
+  std::span<const geometry::Polygon> outline;
+};
+/// Where footprints are beside a scan.
+struct Registration {
+  geometry::Point2 offset;               ///< m; what to add to the footprints to bring them to the scan
+  double error = 0;                      ///< m; standard error of each coordinate
+  double spread = 0;                     ///< m; standard deviation from wall to wall
+  std::size_t edges = 0, transects = 0;  ///< what it was measured from
+};
+/// m; offsets up to this along each axis are found.
+inline constexpr double most_displaced = 8;
+/// The offset of all footprints together. Walls are looked for along the outlines; where these are beside them, along
+/// the outlines moved to where the scan falls most from inside to outside, if that meets significantly more walls. The
+/// error counts walls as independent, or pieces where these differ more. None where edges face too few ways.
+/// Guarantees: the same whatever the order of pieces and the thread count. Cost: O(vertices + outlines' length).
+[[nodiscard]] auto registration(std::span<const Piece> pieces) -> std::optional<Registration>;
+
 /// Noise, correlated area and spacing of a mesh alone, over all of it; `edges` and `transects` are 0.
 [[nodiscard]] auto measure_alone(const geometry::Mesh& mesh) -> model::Accuracy;
 

@@ -29,6 +29,8 @@ auto numbers_in(std::string_view list) -> std::optional<std::vector<std::uint8_t
   return out;
 }
 
+constexpr std::string_view undecided = "surface where buildings are found by shape";
+
 /// What a class is used for, in words.
 auto use_of(std::uint8_t classification) -> std::string_view {
   switch (classification) {
@@ -48,7 +50,7 @@ auto use_of(std::uint8_t classification) -> std::string_view {
     case 11:
     case 17:
     case 26: return "surface";
-    default: return "surface where buildings are found by shape";
+    default: return undecided;
   }
 }
 
@@ -103,6 +105,8 @@ auto any_ground(const std::array<std::uint64_t, 256>& counts) -> bool {
     if (counts[c] > 0) return true;
   return false;
 }
+
+auto is_undecided(std::uint8_t classification) -> bool { return use_of(classification) == undecided; }
 
 auto class_name(std::uint8_t classification) -> std::string_view {
   switch (classification) {

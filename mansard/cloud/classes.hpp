@@ -25,6 +25,10 @@ using ClassMap = std::array<std::uint8_t, 256>;
 /// `counts`: of points by the class that they are taken for.
 [[nodiscard]] auto any_ground(const std::array<std::uint64_t, 256>& counts) -> bool;
 
+/// Whether a class, as the map has it, neither says that a point is of a building nor that it is not: such points are
+/// surface only where buildings are found by shape.
+[[nodiscard]] auto is_undecided(std::uint8_t classification) -> bool;
+
 /// The name that the specification gives a class, in lower case; empty for one that it reserves or leaves to users.
 [[nodiscard]] auto class_name(std::uint8_t classification) -> std::string_view;
 

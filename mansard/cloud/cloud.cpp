@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "mansard/cloud/classes.hpp"
 #include "mansard/cloud/detail/compare_strips.hpp"
 #include "mansard/cloud/detail/grid.hpp"
 #include "mansard/cloud/detail/metres.hpp"
@@ -49,12 +50,18 @@ auto ground_of(const std::vector<detail::Point>& points, std::int64_t cell, std:
   out.y = floored(y, per_metre);
   out.columns = out.rows = static_cast<std::size_t>(side / per_metre);
   std::vector<std::int64_t> sum(out.columns * out.rows, 0), count(sum.size(), 0);
+  std::map<std::pair<std::uint32_t, std::uint8_t>, std::pair<std::uint32_t, std::int64_t>> undecided;
   out.points.assign(sum.size(), 0);
   for (const auto& p : points) {
     const std::int64_t px = p.x - border, py = p.y - border;
     if (px < 0 || py < 0 || px >= side || py >= side) continue;
     const auto i = static_cast<std::size_t>(py / per_metre) * out.columns + static_cast<std::size_t>(px / per_metre);
     out.points[i] += 1;
+    if (is_undecided(p.classification)) {
+      auto& [number, heights] = undecided[{static_cast<std::uint32_t>(i), p.classification}];
+      ++number;
+      heights += p.z;
+    }
     if (p.classification != 2) continue;
     sum[i] += p.z;
     ++count[i];
@@ -67,6 +74,10 @@ auto ground_of(const std::vector<detail::Point>& points, std::int64_t cell, std:
     ++known;
   }
   if (known == 0) out.heights.clear();
+  for (const auto& [key, what] : undecided)
+    out.undecided.push_back(
+        {key.first, key.second, what.first,
+         static_cast<float>(static_cast<double>(what.second) / static_cast<double>(what.first) / per_metre)});
   return {std::move(out), known};
 }
 
@@ -271,6 +282,7 @@ auto Surface::make(const Tile& tile) const -> base::Result<TileSurface> {
                                 options_.building_share * static_cast<double>(metres.points().size())
                ? Buildings::by_class
                : Buildings::by_shape;
+  if (mode != Buildings::by_class) out.ground.undecided.clear();
   ++(mode == Buildings::by_class ? out.counts.tiles_by_class : out.counts.tiles_by_shape);
   detail::Grid grid(std::move(metres).take(), cell_, mode);
   detail::clean(grid, options_, out.counts);

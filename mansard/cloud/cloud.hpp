@@ -81,6 +81,15 @@ struct GroundTile {
   std::size_t columns = 0, rows = 0;
   std::vector<float> heights;  ///< m; row by row from the south; NaN for none
   std::vector<float> points;   ///< of all classes but noise, likewise; 0 for none
+  /// Points of a class that says nothing of what they are (is_undecided), where buildings are found by class: so many
+  /// in a cell, by its number in `points`, and their mean height.
+  struct Undecided {
+    std::uint32_t cell = 0;
+    std::uint8_t classification = 0;
+    std::uint32_t points = 0;
+    float height = 0;  ///< m
+  };
+  std::vector<Undecided> undecided{};  ///< by cell and class
 };
 
 struct TileSurface {

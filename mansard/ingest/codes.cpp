@@ -45,6 +45,9 @@ auto own_codes() -> std::vector<base::Code> {
        "Ask the cloud's producer what they mean, and name them with --cloud-building-classes, --cloud-ground-classes "
        "or --cloud-left-out-classes.",
        0},
+      {"scan-classes",
+       "Points of a class that is not used for buildings are most of what is over footprints, above the ground.",
+       "Give the --cloud-building-classes of the message, if the class has roofs.", 0},
       {"ingest-points-twice",
        "Points are repeated in the point clouds: the same tile was given twice, deliveries overlap, or a file has "
        "points "
@@ -141,7 +144,9 @@ auto own_codes() -> std::vector<base::Code> {
        "Nothing to do, unless the heights are in another one; gdal_translate -b chooses.", 0},
       {"ingest-attribute-range", "Integer attributes are at the limit of 64 bits, where GDAL puts larger ones.",
        "Write integers beyond 2^63 as strings in the source.", 0},
-      {"ingest-id-duplicate", "Features lack an id, or share one.",
+      {"ingest-id-duplicate",
+       "Features lack an id, or share one. Ids stay as given: a feature with the id of an earlier one gets ~2, ~3 … "
+       "appended.",
        "Choose another attribute with --ingest-id-attribute.", 0},
   };
 }

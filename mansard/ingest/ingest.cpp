@@ -9,12 +9,14 @@
 
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/cloud/classes.hpp"
 #include "mansard/cloud/density.hpp"
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/input_file.hpp"
 #include "mansard/formats/raster/raster.hpp"
 #include "mansard/formats/vector/attributes.hpp"
 #include "mansard/formats/vector/features.hpp"
+#include "mansard/geometry/box_index.hpp"
 #include "mansard/ingest/detail/clean.hpp"
 #include "mansard/ingest/detail/crs.hpp"
 #include "mansard/ingest/detail/files_below.hpp"
@@ -37,9 +39,10 @@ auto in_words(const Box2& box) -> std::string {
          base::to_text(box.least.y, 1) + " to " + base::to_text(box.most.y, 1);
 }
 
-/// The features of a source, and which of them are asked for.
+/// The features of a source with their ids, and which of them are asked for.
 struct Chosen {
   formats::FeatureFile file;
+  std::vector<std::string> ids;
   std::vector<bool> wanted;
 };
 
@@ -48,7 +51,10 @@ auto read_chosen(const std::filesystem::path& path, const Options& options, cons
   // What does not pass the filter is still around what does.
   auto file = formats::read_features(path, {options.layer, options.where, true, options.crs, options.bbox}, run);
   if (!file) return file.failure();
-  Chosen out{std::move(*file), {}};
+  // Before any is left out: of ids that are there twice, what a selection calls them is what the whole file calls them.
+  auto ids = formats::ids_of(file->features, options.id_attribute, formats::shown_name(path), file->warnings);
+  if (!ids) return ids.failure();
+  Chosen out{std::move(*file), std::move(*ids), {}};
   for (const auto& feature : out.file.features) out.wanted.push_back(feature.passes);
   return out;
 }
@@ -88,10 +94,14 @@ auto keep_surroundings(Chosen& chosen) -> Box2 {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (!chosen.wanted[i] && !bounds(features[i]).overlaps(reach)) continue;
-    if (kept != i) features[kept] = std::move(features[i]);
+    if (kept != i) {
+      features[kept] = std::move(features[i]);
+      chosen.ids[kept] = std::move(chosen.ids[i]);
+    }
     chosen.wanted[kept++] = chosen.wanted[i];
   }
   features.resize(kept);
+  chosen.ids.resize(kept);
   chosen.wanted.resize(kept);
   return blocks;
 }
@@ -164,8 +174,9 @@ void append(std::vector<base::Diagnostic>& all, std::vector<base::Diagnostic> mo
 
 /// All features of the file as footprints. Where their polygons are beside `mesh`, they have a defect. Not all at once:
 /// what was read of a feature goes when its footprint is made.
-void finish_all(Chosen& chosen, std::vector<std::string> ids, const Box2& mesh, model::Scene& scene) {
+void finish_all(Chosen& chosen, const Box2& mesh, model::Scene& scene) {
   auto& features = chosen.file.features;
+  auto& ids = chosen.ids;
   const auto wanted = static_cast<std::size_t>(std::ranges::count(chosen.wanted, true));
   scene.footprints.reserve(wanted);
   scene.surroundings.reserve(features.size() - wanted);
@@ -228,15 +239,65 @@ auto read_ground(const std::filesystem::path& path, const Options& options, cons
   return out;
 }
 
-auto check_overlap(const Ground& ground, const Box2& mesh, const std::string& subject) -> base::Result<void> {
+/// Whether two boxes share half of the smaller one.
+auto share_half(const Box2& a, const Box2& b) -> bool {
+  const auto area = [](const Box2& box) {
+    return std::max(0.0, box.most.x - box.least.x) * std::max(0.0, box.most.y - box.least.y);
+  };
+  const Box2 both{{std::max(a.least.x, b.least.x), std::max(a.least.y, b.least.y)},
+                  {std::min(a.most.x, b.most.x), std::min(a.most.y, b.most.y)}};
+  return 2 * area(both) >= std::min(area(a), area(b)) && area(both) > 0;
+}
+
+/// What would make mesh and footprints overlap: another axis that is up, another unit, or x and y swapped. Empty for
+/// none of them. `mesh`: as read, with the offset.
+auto mended(const Box2& footprints, const geometry::Box3& mesh, const std::array<double, 3>& offset) -> std::string {
+  using geometry::Point3;
+  const Point3 by{offset[0], offset[1], offset[2]};
+  const auto overlap = [&](auto change) {
+    geometry::Box3 box;
+    for (const Point3 corner : {mesh.least, mesh.most}) box.add(change(corner - by) + by);
+    return share_half(box.plan(), footprints);
+  };
+  struct Way {
+    double factor;
+    const char* words;
+  };
+  constexpr double foot = 0.3048;
+  constexpr std::array ways{
+      Way{foot, "the mesh is in feet, and they do in metres: multiply its coordinates by 0.3048"},
+      Way{1 / foot,
+          "the footprints are in feet, or the mesh was divided by 3.2808: multiply its coordinates by 3.2808"},
+      Way{0.001, "the mesh is in millimetres, and they do in metres: multiply its coordinates by 0.001"},
+      Way{0.01, "the mesh is in centimetres, and they do in metres: multiply its coordinates by 0.01"},
+      Way{1000, "the mesh is in kilometres, and they do in metres: multiply its coordinates by 1000"}};
+  if (overlap([](Point3 p) { return Point3{p.y, p.x, p.z}; }))
+    return "with x and y of one swapped they do: correct its axis order";
+  if (overlap([](Point3 p) { return Point3{p.x, -p.z, p.y}; })) return "with y up they do: give --up y";
+  if (overlap([](Point3 p) { return Point3{p.x, p.z, -p.y}; }))
+    return "with the z axis of its file up they do: give --up z, or turn the mesh if it is given";
+  if (overlap([](Point3 p) {
+        return Point3{-p.z, p.y, p.x};
+      }) ||
+      overlap([](Point3 p) {
+        return Point3{p.z, p.y, -p.x};
+      }))
+    return "the mesh lies on its side, and with its x axis up they do: turn it before it is read";
+  for (const auto& way : ways)
+    if (overlap([&](Point3 p) { return way.factor * p; })) return way.words;
+  return {};
+}
+
+auto check_overlap(const Ground& ground, const geometry::Box3& box, const Options& options, const std::string& subject)
+    -> base::Result<void> {
+  const Box2 mesh = box.plan();
   if (ground.box.empty() || ground.box.overlaps(mesh)) return {};
   const std::string& crs = ground.way.name;
-  const Box2 turned{{ground.box.least.y, ground.box.least.x}, {ground.box.most.y, ground.box.most.x}};
+  const auto how = mended(ground.box, box, options.mesh_offset);
   return base::error("ingest-no-overlap",
                      "mesh and footprints do not overlap: the mesh lies in " + in_words(mesh) + ", the footprints in " +
                          in_words(ground.box) + (crs.empty() ? "" : " (" + crs.substr(0, crs.find('[')) + ")") +
-                         (turned.overlaps(mesh) ? "; with x and y of one swapped they do: correct its axis order"
-                                                : "; give --mesh-offset or --crs"),
+                         (how.empty() ? "; give --mesh-offset or --crs" : "; " + how),
                      subject);
 }
 
@@ -280,6 +341,65 @@ void take_density(std::vector<cloud::GroundTile> counted, const Options& options
     std::erase_if(attributes, [](const auto& one) { return one.first == "ms_point_density"; });
     attributes.emplace_back("ms_point_density", *value);
   });
+}
+
+/// Says which classes have the points of buildings, and are not used for them.
+void tell_undecided(const std::vector<cloud::GroundTile>& tiles, const Options& options, model::Scene& scene) {
+  if (!scene.terrain || scene.footprints.empty()) return;
+  std::vector<Box2> boxes;
+  for (const auto& footprint : scene.footprints) boxes.push_back(geometry::bounds(footprint.polygons));
+  const geometry::BoxIndex index(boxes);
+  const auto along = [&](std::size_t axis) {
+    return options.mesh_offset[axis] - static_cast<double>(scene.frame.origin[axis]);
+  };
+  const Point2 shift{along(0), along(1)};
+  constexpr double high = 2;                                          // m above the ground: no car and no hedge
+  std::map<std::uint8_t, std::map<std::size_t, std::uint64_t>> over;  // by class and footprint
+  for (const auto& tile : tiles)
+    for (const auto& some : tile.undecided) {
+      const Point2 at =
+          shift + Point2{static_cast<double>(tile.x) + static_cast<double>(some.cell % tile.columns) + 0.5,
+                         static_cast<double>(tile.y) + static_cast<double>(some.cell / tile.columns) + 0.5};
+      for (const auto f : index.overlapping({at, at})) {
+        if (!geometry::contains(scene.footprints[f].polygons, at)) continue;
+        const auto ground = scene.terrain->at(at);
+        if (ground && static_cast<double>(some.height) + along(2) - *ground >= high)
+          over[some.classification][f] += some.points;
+      }
+    }
+  if (over.empty()) return;
+  std::vector<double> points;
+  for (const auto& footprint : scene.footprints) {
+    double area = 0;
+    for (const auto& polygon : footprint.polygons) area += geometry::area(polygon);
+    const auto density =
+        std::ranges::find(footprint.attributes, "ms_point_density", &model::Attributes::value_type::first);
+    const auto* value = density == footprint.attributes.end() ? nullptr : std::get_if<double>(&density->second);
+    points.push_back(value == nullptr ? 0 : *value * area);
+  }
+  double all = 0;
+  for (const double one : points) all += one;
+  for (const auto& [classification, footprints] : over) {
+    // A building of which most points are of the class; less is a wall, a crown, or what is on a roof.
+    constexpr double most = 0.5;
+    double sum = 0;
+    std::size_t buildings = 0;
+    for (const auto& [f, count] : footprints) {
+      sum += static_cast<double>(count);
+      if (static_cast<double>(count) > most * points[f]) ++buildings;
+    }
+    if (buildings == 0) continue;
+    const auto number = std::to_string(classification);
+    const auto name = cloud::class_name(classification);
+    scene.warnings.push_back(base::warning(
+        "scan-classes",
+        "class " + number + (name.empty() ? "" : " (" + std::string(name) + ")") + " has " +
+            base::to_text(100 * sum / all, 0) +
+            " % of the points over the footprints, 2 m or more above the ground, and " + "most of those of " +
+            std::to_string(buildings) + " of " + std::to_string(scene.footprints.size()) +
+            " footprints, but is not used for buildings; if it has roofs, give --cloud-building-classes " +
+            options.cloud.building_classes + "," + number));
+  }
 }
 
 auto plan_of(const geometry::Mesh& mesh) -> Box2 { return Box2::of(mesh.vertices); }
@@ -336,7 +456,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
                        "none of the " + std::to_string(meshes->mesh.triangles.size()) +
                            " triangles has finite corners that exist; export the mesh again",
                        mesh_name);
-  if (auto met = check_overlap(*ground, mesh_box.plan(), subject); !met) return met.error();
+  if (auto met = check_overlap(*ground, mesh_box, options, subject); !met) return met.error();
   model::Scene scene;
   scene.frame.crs = ground->way.name;
   scene.frame.origin =
@@ -365,10 +485,6 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
 
   run.report("ingest", subject, 0.9);
   const Box2 local{xy(mesh_box.least) - origin, xy(mesh_box.most) - origin};
-  auto& file = ground->chosen.file;
-  auto ids = formats::ids_of(file.features, options.id_attribute, subject, file.warnings);
-  if (!ids) return ids.error();
-
   scene.inputs = std::move(meshes->inputs);
   scene.roofs_only = meshes->roofs_only;
   const Box2 ground_box = cells == nullptr ? plan_of(scene.mesh) : within ? within->grown(mesh_margin) : local;
@@ -378,8 +494,12 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   append(scene.warnings, detail::warnings_of(scene.mesh_counts, mesh_name));
   append(scene.warnings, std::move(ground->chosen.file.warnings));
   append(scene.warnings, ground->way.warnings);
-  finish_all(ground->chosen, *std::move(ids), local, scene);
+  finish_all(ground->chosen, local, scene);
+  std::vector<cloud::GroundTile> undecided;  // without the cells, which are large
+  for (auto& tile : meshes->counted)
+    undecided.push_back({tile.x, tile.y, tile.columns, tile.rows, {}, {}, std::move(tile.undecided)});
   take_density(std::move(meshes->counted), options, scene);
+  tell_undecided(undecided, options, scene);
   run.report("ingest", subject, 1);
   return scene;
 }
@@ -406,8 +526,6 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   if (!box.empty())
     scene.frame.origin = detail::origin_of(box, {{box.least.x, box.least.y, 0}, {box.most.x, box.most.y, 0}});
   constexpr double far = std::numeric_limits<double>::infinity();
-  auto ids = formats::ids_of(file->features, options.id_attribute, subject, file->warnings);
-  if (!ids) return ids.error();
   scene.inputs = std::move(file->inputs);
   if (!options.terrain.empty()) {
     constexpr double around = 100;  // m; --terrain-margin may ask for more, where the terrain is continued
@@ -417,7 +535,7 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   }
   append(scene.warnings, std::move(file->warnings));
   append(scene.warnings, way->warnings);
-  finish_all(*chosen, *std::move(ids), {{-far, -far}, {far, far}}, scene);
+  finish_all(*chosen, {{-far, -far}, {far, far}}, scene);
   return scene;
 }
 

@@ -8,6 +8,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/input_name.hpp"
+#include "mansard/pipeline/scan_checks.hpp"
 #include "mansard/roof/roof.hpp"
 
 namespace mansard::pipeline {
@@ -63,6 +64,26 @@ auto take_grounds(const Options& options, model::Scene& scene) -> base::Result<v
                      "roof.ground_attribute");
 }
 
+/// Adds what is wrong with the scan as a whole to its warnings. Fails where nothing sensible can come of it.
+auto check(const Options& options, const base::Run& run, const ingest::MeshCells* cells, model::Scene& scene)
+    -> base::Result<void> {
+  if (options.scan_checks == ScanChecks::off) return {};
+  auto checked = check_scan(scene, cells, options, run);
+  if (!checked) return checked.failure();
+  base::Failure failure;
+  for (auto& finding : checked->findings) {
+    if (finding.severity == base::Severity::error && options.scan_checks == ScanChecks::stop) {
+      failure.diagnostics.push_back(std::move(finding));
+      continue;
+    }
+    finding.severity = base::Severity::warning;
+    scene.warnings.push_back(std::move(finding));
+  }
+  if (failure.diagnostics.empty()) return {};
+  failure.diagnostics.front().message += "; --pipeline-scan-checks warn goes on nevertheless";
+  return failure;
+}
+
 }  // namespace
 
 auto is_footprints_name(const std::filesystem::path& path) -> bool {
@@ -106,6 +127,7 @@ auto read_inputs(const InputPaths& paths, const Options& options, const base::Ru
     auto scene = ingest::read_scene(paths.meshes, paths.footprints, options.ingest, run);
     if (!scene) return scene;
     if (auto taken = take_grounds(options, *scene); !taken) return taken.failure();
+    if (auto checked = check(options, run, nullptr, *scene); !checked) return checked.failure();
     return scene;
   }
   // The ground, and so what stands on it, is found by what it is joined to, however far: footprints are those of the
@@ -131,6 +153,7 @@ auto read_city_inputs(const InputPaths& paths, const Options& options, const bas
     auto city = ingest::read_city(paths.meshes, paths.footprints, options.ingest, run);
     if (!city) return city;
     if (auto taken = take_grounds(options, city->scene); !taken) return taken.failure();
+    if (auto checked = check(options, run, city->cells.get(), city->scene); !checked) return checked.failure();
     return city;
   }
   auto scene = read_inputs(paths, options, run);

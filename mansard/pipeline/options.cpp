@@ -6,6 +6,7 @@
 #include "mansard/formats/codes.hpp"
 #include "mansard/picture/picture.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/pipeline/scan_checks.hpp"
 #include "mansard/solid/solid.hpp"
 #include "mansard/solver/solver.hpp"
 #include "mansard/texture/texture.hpp"
@@ -43,6 +44,10 @@ auto option_lists(Options& options) -> std::vector<base::OptionList> {
       .number("partly_seen", options.partly_seen, "", {0, 1},
               "Minimum share of a footprint without scan for the building to be reported as partly "
               "seen.")
+      .choice("scan_checks", options.scan_checks,
+              {{"stop", ScanChecks::stop}, {"warn", ScanChecks::warn}, {"off", ScanChecks::off}},
+              "Whether the scan is checked against its footprints before the work begins: stop ends the run where "
+              "nothing sensible can come out, warn never does.")
       .number("roof_grid", options.roof_grid, "m", {0.05, 5},
               "Sample spacing of the roof heights among the attributes.")
       .string("survey_source", options.survey_source, "Name of the scan, for the attribute ms_source of buildings.")
@@ -415,6 +420,7 @@ auto codes() -> std::vector<base::Code> {
   add(texture::codes());
   add(terrain::codes());
   add(picture::codes());
+  add(scan_codes());
   add({
       {"pipeline-nothing", "No footprint of the input could be used.",
        "The report lists the reason of each; repair the footprints.", 5},

@@ -36,6 +36,9 @@
 
 namespace mansard::pipeline {
 
+/// What the checks of a scan do (scan_checks.hpp).
+enum class ScanChecks : std::uint8_t { stop, warn, off };
+
 /// The options of every module. What a run means is these and its inputs.
 struct Options {
   ingest::Options ingest;
@@ -58,6 +61,7 @@ struct Options {
   terrain::Options terrain;
 
   std::int64_t seed = 1;
+  ScanChecks scan_checks = ScanChecks::stop;
   double partly_seen = 0.1;                ///< of a footprint: more without scan is reported
   double assumed_height = 0;               ///< m; of the prism of a footprint that the scan does not cover; 0 for none
   double roof_grid = 0.5;                  ///< m; sampling of roof heights for attributes

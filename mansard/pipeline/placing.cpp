@@ -9,6 +9,7 @@
 #include "mansard/block/block.hpp"
 #include "mansard/crs/candidates.hpp"
 #include "mansard/ingest/model.hpp"
+#include "mansard/pipeline/scan_checks.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -116,7 +117,7 @@ auto find_placing(const InputPaths& paths, const Options& options, const base::R
 }
 
 auto accuracy_of_scan(const InputPaths& paths, const Options& options, const base::Run& run, std::size_t most_blocks)
-    -> base::Result<model::Accuracy> {
+    -> base::Result<MeasuredScan> {
   const auto scene = read_inputs(paths, options, run);
   if (!scene) return scene.failure();
   const block::Partition blocks(*scene, options.block, run);
@@ -126,7 +127,22 @@ auto accuracy_of_scan(const InputPaths& paths, const Options& options, const bas
     const auto own = block::in_own_frame(blocks.make(i));
     all.push_back(accuracy::measure(own.block.mesh, rays::Scene(own.block.mesh), own.block.outline, options.accuracy));
   }
-  return accuracy::combined(all);
+  MeasuredScan out{accuracy::combined(all), {}};
+  for (const auto& warning : scene->warnings)
+    if (warning.code.starts_with("scan-")) out.findings.push_back(warning);
+  return out;
+}
+
+auto align_scan(const InputPaths& paths, const Options& options, const base::Run& run)
+    -> base::Result<std::optional<std::array<double, 3>>> {
+  auto unchecked = options;
+  unchecked.scan_checks = ScanChecks::off;
+  const auto city = read_city_inputs(paths, unchecked, run);
+  if (!city) return city.failure();
+  const auto checked = check_scan(city->scene, city->cells.get(), options, run);
+  if (!checked) return checked.failure();
+  if (!checked->registration) return std::optional<std::array<double, 3>>();
+  return aligned_offset(*checked->registration, options.ingest.mesh_offset);
 }
 
 }  // namespace mansard::pipeline

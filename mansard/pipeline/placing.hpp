@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mansard/align/align.hpp"
 #include "mansard/pipeline/inputs.hpp"
@@ -35,9 +36,18 @@ inline constexpr double least_met = 0.5;
 [[nodiscard]] auto find_placing(const InputPaths& paths, const Options& options, const base::Run& run = {})
     -> base::Result<std::optional<Placing>>;
 
-/// The accuracy of a scan over its footprints, of at most so many of its blocks, evenly. Reads all of the mesh. Fails
-/// as read_inputs does.
+struct MeasuredScan {
+  model::Accuracy accuracy;
+  std::vector<base::Diagnostic> findings;  ///< of the checks of the scan (scan_checks.hpp)
+};
+/// The accuracy of a scan over its footprints, of at most so many of its blocks, evenly, and what is wrong with it as a
+/// whole. Reads all of the mesh. Fails as read_inputs does.
 [[nodiscard]] auto accuracy_of_scan(const InputPaths& paths, const Options& options, const base::Run& run = {},
-                                    std::size_t most_blocks = 24) -> base::Result<model::Accuracy>;
+                                    std::size_t most_blocks = 24) -> base::Result<MeasuredScan>;
+
+/// Of options with which the scan is where its footprints are, the offset of the mesh; none where it is there already,
+/// or where that could not be measured. Reads all of the mesh. Fails as read_city_inputs does.
+[[nodiscard]] auto align_scan(const InputPaths& paths, const Options& options, const base::Run& run = {})
+    -> base::Result<std::optional<std::array<double, 3>>>;
 
 }  // namespace mansard::pipeline

@@ -178,26 +178,61 @@ TEST_F(Sources, the_kinds_of_fields_keep_their_kind) {
 
 TEST_F(Sources, ids_come_from_the_attribute_asked_for_and_are_made_different) {
   const char* box = "POLYGON ((10 10,20 10,20 20,10 10))";
-  write("GPKG", at("f.gpkg"), 28992, {{box, "a", 1}, {box, "b", 2}, {box, "a", 3}, {box, "a-2", 4}});
+  write("GPKG", at("f.gpkg"), 28992, {{box, "a", 1}, {box, "b", 2}, {box, "a", 3}, {box, "a~2", 4}, {box, "a", 5}});
   Options options;
   options.id_attribute = "NAME";
   const auto scene = read({ground()}, at("f.gpkg"), options);
   ASSERT_TRUE(scene);
   std::vector<std::string> ids;
   for (const auto& f : scene->footprints) ids.push_back(f.id);
-  EXPECT_THAT(ids, ElementsAre("a", "b", "a-3", "a-2"));
+  EXPECT_THAT(ids, ElementsAre("a", "b", "a~3", "a~2", "a~4"));
   EXPECT_TRUE(has_warning(*scene, "ingest-id-duplicate"));
+  // Of a selection, ids are those of the whole.
+  options.where = "floors = 5";
+  const auto one = read({ground()}, at("f.gpkg"), options);
+  ASSERT_TRUE(one) << base::to_string(one.error());
+  ASSERT_EQ(one->footprints.size(), 1U);
+  EXPECT_EQ(one->footprints[0].id, "a~4");
+  options.where.clear();
   // GeoPackage's own column, which its driver keeps apart.
   options.id_attribute = "FID";
   const auto numbered = read({ground()}, at("f.gpkg"), options);
   ASSERT_TRUE(numbered) << base::to_string(numbered.error());
   ids.clear();
   for (const auto& f : numbered->footprints) ids.push_back(f.id);
-  EXPECT_THAT(ids, ElementsAre("1", "2", "3", "4"));
+  EXPECT_THAT(ids, ElementsAre("1", "2", "3", "4", "5"));
   options.id_attribute = "nmae";
   const auto misspelt = read({ground()}, at("f.gpkg"), options);
   ASSERT_EQ(code(misspelt), "ingest-id-attribute");
   EXPECT_THAT(misspelt.error().message, HasSubstr("floors"));
+}
+
+TEST_F(Sources, a_well_known_id_that_features_share_stays_and_is_made_different) {
+  const auto features = [&](const std::vector<std::string>& values) {
+    std::string all;
+    for (const auto& value : values)
+      all += (all.empty() ? "" : ",") +
+             (R"({"type":"Feature","properties":{"bag_id":)" + value +
+              R"(,"id":"house"},"geometry":{"type":"Polygon","coordinates":)" + square() + "}}");
+    return file("f.geojson", R"({"type":"FeatureCollection","features":[)" + all + "]}");
+  };
+  const auto ids = [](const model::Scene& scene) {
+    std::vector<std::string> out;
+    for (const auto& f : scene.footprints) out.push_back(f.id);
+    return out;
+  };
+  const auto twice = read({ground()}, features({"12", "13", "12", "14", "12"}));
+  ASSERT_TRUE(twice) << base::to_string(twice.error());
+  EXPECT_THAT(ids(*twice), ElementsAre("12", "13", "12~2", "14", "12~3"));
+  const auto warning = std::ranges::find(twice->warnings, "ingest-id-duplicate", &base::Diagnostic::code);
+  ASSERT_NE(warning, twice->warnings.end());
+  EXPECT_THAT(warning->message, HasSubstr("2 of 5 features"));
+  EXPECT_THAT(warning->message, HasSubstr("12~2, 12~3"));
+  // What all share names no feature; nor does what most lack.
+  const auto none = read({ground()}, features({"null", "null", "null", "13", "14"}));
+  ASSERT_TRUE(none);
+  EXPECT_THAT(ids(*none), ElementsAre("0", "1", "2", "3", "4"));
+  EXPECT_FALSE(has_warning(*none, "ingest-id-duplicate"));
 }
 
 TEST_F(Sources, a_well_known_id_is_taken_only_when_it_is_there_for_all) {

@@ -126,7 +126,7 @@ class CloudClasses : public test::Workshop {
     double roof_of_67 = 0;  ///< z, the highest over it
     std::map<std::string, std::string> warnings;
   };
-  [[nodiscard]] auto read(const std::string& buildings) const -> base::Result<Read> {
+  [[nodiscard]] auto read(const std::string& buildings, const fs::path& footprints = {}) const -> base::Result<Read> {
     std::string body;
     std::size_t count = 0;
     for (double y = 0.25; y < 40; y += 0.5)
@@ -146,7 +146,7 @@ class CloudClasses : public test::Workshop {
                                           "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar "
                                           "classification\nend_header\n" +
                                           body)},
-                   {}, options);
+                   footprints, options);
     if (!scene) return scene.failure();
     Read out;
     const auto at = [&](std::size_t axis) { return static_cast<double>(scene->frame.origin[axis]); };
@@ -165,6 +165,24 @@ TEST_F(CloudClasses, without_a_meaning_are_told_and_left_out) {
   EXPECT_LT(found->roof_of_67, 1);
   EXPECT_THAT(found->warnings.at("ingest-points-classes"), testing::HasSubstr("67 (400 points)"));
   EXPECT_THAT(found->warnings.at("ingest-points-surface"), testing::HasSubstr("2 ground 87.5 % (the ground)"));
+}
+
+TEST_F(CloudClasses, that_have_roofs_and_are_not_used_are_told_with_the_option) {
+  const auto feature = [&](double at) {
+    return R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":)" + square(at, at, 10) +
+           "}}";
+  };
+  const auto footprints =
+      file("f.geojson", R"({"type":"FeatureCollection","features":[)" + feature(4) + "," + feature(24) + "]}");
+  const auto found = read("6", footprints);
+  ASSERT_TRUE(found) << base::to_string(found.error());
+  ASSERT_TRUE(found->warnings.contains("scan-classes"));
+  EXPECT_THAT(found->warnings.at("scan-classes"), testing::HasSubstr("class 67 has 50 % of the points"));
+  EXPECT_THAT(found->warnings.at("scan-classes"), testing::HasSubstr("those of 1 of 2 footprints"));
+  EXPECT_THAT(found->warnings.at("scan-classes"), testing::HasSubstr("--cloud-building-classes 6,67"));
+  const auto used = read("6,67", footprints);
+  ASSERT_TRUE(used) << base::to_string(used.error());
+  EXPECT_FALSE(used->warnings.contains("scan-classes"));
 }
 
 TEST_F(CloudClasses, are_buildings_where_they_are_said_to_be) {

@@ -169,23 +169,60 @@ auto numbers_of(const std::vector<RawFeature>& features) -> std::vector<std::str
   return out;
 }
 
-/// Appends -2, -3 … to ids that came before; returns how many, and the first of them.
+/// Appends ~2, ~3 … to ids that came before, so that what was given stays readable. An id that was given is never taken
+/// for another feature. Returns how many were changed, and the first ones in words.
 auto make_different(std::vector<std::string>& ids) -> std::pair<std::size_t, std::string> {
   std::set<std::string> taken(ids.begin(), ids.end());
   std::set<std::string> seen;
   std::map<std::string, std::size_t> next;
   std::pair<std::size_t, std::string> changed{0, {}};
+  constexpr std::size_t examples = 3;
   for (auto& id : ids) {
     if (seen.insert(id).second) continue;
-    if (changed.first++ == 0) changed.second = id;
     std::size_t& n = next.try_emplace(id, 2).first->second;
     std::string other;
-    do other = id + "-" + std::to_string(n++);
+    do other = id + "~" + std::to_string(n++);
     while (!taken.insert(other).second);
+    if (changed.first++ < examples) changed.second += (changed.second.empty() ? "" : ", ") + other;
     id = other;
     seen.insert(id);
   }
   return changed;
+}
+
+/// Ids as given, where they are all different; otherwise changed, with a warning that says how.
+auto as_given(std::vector<std::string> ids, const std::vector<RawFeature>& features, const std::string& attribute,
+              const std::string& subject, std::vector<base::Diagnostic>& warnings) -> std::vector<std::string> {
+  std::size_t missing = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (!ids[i].empty()) continue;
+    ids[i] = "feature-" + std::to_string(features[i].number);
+    ++missing;
+  }
+  if (missing > 0)
+    warnings.push_back(base::warning("ingest-id-duplicate",
+                                     std::to_string(missing) + " of " + std::to_string(features.size()) +
+                                         " features have no '" + attribute +
+                                         "'; they are named by their number in the file, as 'feature-12'",
+                                     subject));
+  if (const auto [count, first] = make_different(ids); count > 0)
+    warnings.push_back(base::warning("ingest-id-duplicate",
+                                     std::to_string(count) + " of " + std::to_string(features.size()) +
+                                         " features have the '" + attribute +
+                                         "' of an earlier one; they got ~2, ~3 … appended (" + first +
+                                         "); --ingest-id-attribute chooses another attribute",
+                                     subject));
+  return ids;
+}
+
+/// Whether the ids name features, though not each its own: half of the features have one, and at most ten share one on
+/// average. Parts of a building do; a kind of building is shared by more.
+auto name_features(const std::vector<std::string>& ids) -> bool {
+  constexpr std::size_t most_sharing = 10;
+  const auto given = ids.size() - static_cast<std::size_t>(std::ranges::count(ids, ""));
+  std::set<std::string_view> distinct(ids.begin(), ids.end());
+  distinct.erase("");
+  return distinct.size() > 1 && 2 * given >= ids.size() && most_sharing * distinct.size() >= given;
 }
 
 }  // namespace
@@ -221,25 +258,7 @@ auto ids_of(const std::vector<RawFeature>& features, const std::string& attribut
           "there is no attribute '" + attribute + "'" + base::did_you_mean(nearest) + "; the layer has: " + all,
           subject);
     }
-    auto ids = column(features, *at);
-    std::size_t missing = 0;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      if (!ids[i].empty()) continue;
-      ids[i] = "feature-" + std::to_string(features[i].number);
-      ++missing;
-    }
-    if (missing > 0)
-      warnings.push_back(base::warning(
-          "ingest-id-duplicate",
-          std::to_string(missing) + " features have no '" + attribute + "'; they are named by their number in the file",
-          subject));
-    if (const auto [count, first] = make_different(ids); count > 0)
-      warnings.push_back(base::warning("ingest-id-duplicate",
-                                       std::to_string(count) +
-                                           " features share their id with an earlier one (the first '" + first +
-                                           "'); they got -2, -3 … appended",
-                                       subject));
-    return ids;
+    return as_given(column(features, *at), features, *at, subject, warnings);
   }
 
   if (std::ranges::none_of(features, [](const auto& feature) { return feature.own_id.empty(); })) {
@@ -257,6 +276,11 @@ auto ids_of(const std::vector<RawFeature>& features, const std::string& attribut
   for (const auto name : known)
     if (const auto at = find(name))
       if (auto ids = column(features, *at); all_different(ids)) return ids;
+  // None is unique: the first that names features stays, since users look for these ids in the results.
+  for (const auto name : known)
+    if (const auto at = find(name))
+      if (auto ids = column(features, *at); name_features(ids))
+        return as_given(std::move(ids), features, *at, subject, warnings);
   auto ids = numbers_of(features);
   // Some sources number every feature alike, or not at all.
   if (!all_different(ids))
