@@ -139,8 +139,7 @@ class Grounds {
         within_reach_(within_reach),
         options_(options),
         origin_(as_point(block.origin)) {
-    if (!scene.roofs_only)
-      samples_ = detail::ground_samples(around.mesh, around.shapes, block.members.size(), options);
+    if (!scene.roofs_only) samples_ = detail::ground_samples(around.mesh, around.shapes, block.members.size(), options);
   }
 
   struct Found {
@@ -162,7 +161,8 @@ class Grounds {
     if (const auto z = of_neighbours()) return {*z, GroundSource::neighbours};
     if (options_.ground_height) return {here(*options_.ground_height), GroundSource::option};
     const auto low = lowest();
-    // An outline may be drawn at the eaves. The ground is not above what is seen beside the building, nor near the roof.
+    // An outline may be drawn at the eaves. The ground is not above what is seen beside the building, nor near the
+    // roof.
     const auto is_ground = [&](double z) {
       if (low.source == GroundSource::unknown) return true;
       return z <= (low.source == GroundSource::assumed ? low.z + options_.storey / 2 : low.z);
@@ -190,8 +190,7 @@ class Grounds {
     };
     auto& found = lowest_.emplace();
     std::optional<double> z;
-    if (!scene_.roofs_only)
-      z = low_of(detail::beside_samples(block_.mesh, around_.shapes, block_.outline, options_));
+    if (!scene_.roofs_only) z = low_of(detail::beside_samples(block_.mesh, around_.shapes, block_.outline, options_));
     if (z) return found = {*z, GroundSource::lowest};
     if (const auto roof = low_of(detail::surface_samples(block_.mesh)))
       return found = {*roof - options_.storey, GroundSource::assumed};
@@ -207,7 +206,7 @@ class Grounds {
   const std::vector<std::uint32_t>& within_reach_;
   const Options& options_;
   Point3 origin_;
-  std::vector<std::vector<detail::Sample>> samples_;     ///< of each member; empty where nothing can be ground
+  std::vector<std::vector<detail::Sample>> samples_;  ///< of each member; empty where nothing can be ground
   std::optional<std::optional<double>> neighbours_;
   std::optional<Found> lowest_;
 };

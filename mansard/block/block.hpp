@@ -82,13 +82,13 @@ struct Options {
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
 /// The ground is what the footprint's attribute says, else the scene's terrain where that is known along the outline,
-/// else what the mesh shows around it, else one of the others of GroundSource, rounded to 2⁻¹⁰ m. Footprints with a defect are left out, and so are blocks of surroundings alone.
-/// Guarantees: 1 every usable footprint is in exactly one block · 2 blocks and members are ordered by feature number,
-/// whatever the thread count · 3 every triangle of the scene within the padding of a block's outline is in that block's
-/// mesh, and none entirely farther away · 4 a block depends on its members, on the footprints and the mesh near it and
-/// on nothing else: not on their order in the files, nor on where the scene's frame begins, nor on what else is in the
-/// scene. Its coordinates are rounded to model::coordinate_unit.
-/// Cost: O((n + m) log m) for n triangles, m footprints.
+/// else what the mesh shows around it, else one of the others of GroundSource, rounded to 2⁻¹⁰ m. Footprints with a
+/// defect are left out, and so are blocks of surroundings alone. Guarantees: 1 every usable footprint is in exactly one
+/// block · 2 blocks and members are ordered by feature number, whatever the thread count · 3 every triangle of the
+/// scene within the padding of a block's outline is in that block's mesh, and none entirely farther away · 4 a block
+/// depends on its members, on the footprints and the mesh near it and on nothing else: not on their order in the files,
+/// nor on where the scene's frame begins, nor on what else is in the scene. Its coordinates are rounded to
+/// model::coordinate_unit. Cost: O((n + m) log m) for n triangles, m footprints.
 [[nodiscard]] auto partition(const model::Scene& scene, const Options& options, const base::Run& run = {})
     -> std::vector<Block>;
 

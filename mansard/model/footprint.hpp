@@ -11,8 +11,8 @@
 
 namespace mansard::model {
 
-/// One GIS feature. A feature that cannot be used keeps its place, with `defect` set; it has polygons only where nothing
-/// is wrong with these, so that they can be written as LoD 0.
+/// One GIS feature. A feature that cannot be used keeps its place, with `defect` set; it has polygons only where
+/// nothing is wrong with these, so that they can be written as LoD 0.
 struct Footprint {
   std::string id;                           ///< the id attribute, else the feature id of the source; unique in a scene
   std::vector<geometry::Polygon> polygons;  ///< local frame, simple, oriented, one per part of a MultiPolygon
@@ -21,7 +21,8 @@ struct Footprint {
   bool derived = false;  ///< drawn from the mesh, by no surveyor
   /// z of the ground around it, m, in the heights of the files: what an attribute says.
   std::optional<double> ground = std::nullopt;
-  /// Minimum z of its outline, m, in the same; none where it is drawn in two dimensions. That may be the ground or a roof.
+  /// Minimum z of its outline, m, in the same; none where it is drawn in two dimensions. That may be the ground or a
+  /// roof.
   std::optional<double> outline_z = std::nullopt;
 };
 

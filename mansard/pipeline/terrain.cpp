@@ -19,8 +19,7 @@ auto terrain_heights(const model::Scene& scene, const ingest::MeshCells* cells, 
   std::vector<geometry::Polygon> footprints;
   for (const auto* all : {&scene.footprints, &scene.surroundings})
     for (const auto& footprint : *all)
-      if (!footprint.defect)
-        footprints.insert(footprints.end(), footprint.polygons.begin(), footprint.polygons.end());
+      if (!footprint.defect) footprints.insert(footprints.end(), footprint.polygons.begin(), footprint.polygons.end());
   return ground.heights(footprints);
 }
 

@@ -9,6 +9,7 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   // default nothing is gained: walls have bays and frames.
   constexpr double most = 0.45;
   o.line_distance = std::max(o.line_distance, std::min(most, 2 * scan.noise));
+  o.registration_noise = std::max(o.registration_noise, scan.edge_noise);
   return o;
 }
 

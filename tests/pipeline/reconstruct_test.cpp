@@ -199,7 +199,8 @@ TEST(Reconstruct, continues_a_roof_of_which_the_scan_shows_a_half_and_says_so) {
   const auto r = reconstructed(scene);
   EXPECT_NEAR(r.buildings.at(0).volume, 12 * 8 * 5 + 12 * 8 * 3 / 2, 15);
   EXPECT_NEAR(value(r.city.buildings[0].attributes, "ms_nodata_share"), 0.5, 0.06);
-  EXPECT_THAT(r.buildings[0].reasons, testing::Contains(testing::Field(&base::Diagnostic::code, "pipeline-partly-seen")));
+  EXPECT_THAT(r.buildings[0].reasons,
+              testing::Contains(testing::Field(&base::Diagnostic::code, "pipeline-partly-seen")));
   expect_valid(r);
 }
 
@@ -218,7 +219,8 @@ TEST(Reconstruct, says_what_the_height_of_the_ground_comes_from) {
   scene.roofs_only = true;
   EXPECT_EQ(source_of(scene), "assumed");
   const auto r = reconstructed(scene);
-  EXPECT_THAT(r.buildings[0].reasons, testing::Contains(testing::Field(&base::Diagnostic::code, "block-ground-assumed")));
+  EXPECT_THAT(r.buildings[0].reasons,
+              testing::Contains(testing::Field(&base::Diagnostic::code, "block-ground-assumed")));
   Options options;
   options.block.ground_height = 1.5;
   EXPECT_EQ(source_of(scene, options), "option");

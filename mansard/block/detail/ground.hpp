@@ -21,7 +21,8 @@ struct Sample {
 [[nodiscard]] auto percentile(std::vector<Sample> samples, double share, double least) -> std::optional<double>;
 
 /// What may be ground within the ring of each of the first `count` shapes (polygons of one footprint): small pieces of
-/// triangles that are not steep, farther than Options::overhang from all shapes. One list per shape, in the order of the mesh.
+/// triangles that are not steep, farther than Options::overhang from all shapes. One list per shape, in the order of
+/// the mesh.
 [[nodiscard]] auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<geometry::Polygon>>& shapes,
                                   std::size_t count, const Options& options) -> std::vector<std::vector<Sample>>;
 

@@ -132,7 +132,8 @@ void add_ring(const OGRLinearRing& ring, RawPolygon& polygon) {
 void add_heights(const OGRLinearRing& ring, RawFeature& feature) {
   if (!ring.Is3D()) return;
   for (int i = 0; i < ring.getNumPoints(); ++i)
-    if (const double z = ring.getZ(i); std::isfinite(z) && z != 0) feature.lowest = std::min(z, feature.lowest.value_or(z));
+    if (const double z = ring.getZ(i); std::isfinite(z) && z != 0)
+      feature.lowest = std::min(z, feature.lowest.value_or(z));
 }
 
 /// Polygons from whatever holds polygons. Surfaces in space (TIN and the like) are no footprints.

@@ -26,10 +26,10 @@ struct RawFeature {
   model::Attributes attributes;
   std::vector<RawPolygon> parts;
   std::optional<double> lowest;  ///< z of the lowest corner; none in two dimensions, and where all are 0
-  std::string geometry;         ///< what kind it has in the source, "NONE" for none
-  bool other_geometry = false;  ///< there are points, lines or solids in it
-  std::string failure;          ///< what went wrong when it was read; empty for nothing
-  bool passes = true;           ///< the filter of the query
+  std::string geometry;          ///< what kind it has in the source, "NONE" for none
+  bool other_geometry = false;   ///< there are points, lines or solids in it
+  std::string failure;           ///< what went wrong when it was read; empty for nothing
+  bool passes = true;            ///< the filter of the query
 };
 
 struct FeatureFile {

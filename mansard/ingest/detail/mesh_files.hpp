@@ -29,7 +29,7 @@ struct MeshFiles {
   std::vector<model::InputFile> inputs;
   std::vector<base::Diagnostic> warnings;
   std::optional<cloud::Ground>
-      ground;  ///< of point clouds with classified ground, in the working CRS but for the offset
+      ground;               ///< of point clouds with classified ground, in the working CRS but for the offset
   bool roofs_only = false;  ///< all are clouds in which no point can be ground
   std::vector<cloud::GroundTile> counted;  ///< the points of point clouds, likewise
 };

@@ -54,8 +54,8 @@ struct BlockResult {
     double z = 0;
     block::GroundSource source = block::GroundSource::unknown;
   };
-  std::vector<Ground> grounds;    ///< of every feature, ascending; set when placed
-  std::vector<PartResult> parts;  ///< by feature
+  std::vector<Ground> grounds;                           ///< of every feature, ascending; set when placed
+  std::vector<PartResult> parts;                         ///< by feature
   std::vector<std::pair<std::size_t, SolidsOf>> solids;  ///< by feature; numbers of parts count the feature's own
   evaluate::ErrorMap map;
   std::vector<std::size_t> covered;  ///< features whose ground went to their neighbours

@@ -86,6 +86,8 @@ auto median_offset(const std::vector<Match>& matches) -> double {
   return median(std::move(offsets));
 }
 
+constexpr double of_median = 1.4826;  // standard deviation of a normal distribution by its median
+
 /// What half of the walls are nearer than.
 auto median_rest(const std::vector<Match>& matches, const Common& common) -> double {
   std::vector<std::pair<double, double>> rests;
@@ -138,17 +140,17 @@ auto common_of(const std::vector<Match>& matches, const Options& o) -> std::opti
 }
 
 /// m; how far off the shift may be for the walls' scatter alone, infinite where there are too few of them.
-auto standard_error(const std::vector<Match>& matches, const Common& common) -> double {
+auto standard_error(const std::vector<Match>& matches, const Common& common, const Options& o) -> double {
   double sum = 0, squared = 0;
   for (const auto& m : matches) {
     sum += m.weight;
     squared += m.weight * m.weight;
   }
   const double free = sum * sum / squared - fitted;  // as many walls of one length would say as much
-  constexpr double of_median = 1.4826;               // standard deviation of a normal distribution by its median
   constexpr double directions = 2;                   // a wall tells nothing of the shift along it
-  return free > 0 ? of_median * median_rest(matches, common) * std::sqrt(directions / free)
-                  : std::numeric_limits<double>::infinity();
+  // A few walls may fit by chance better than the scan shows them.
+  const double scatter = std::max(of_median * median_rest(matches, common), o.registration_noise);
+  return free > 0 ? scatter * std::sqrt(directions / free) : std::numeric_limits<double>::infinity();
 }
 
 /// Whether a shift of at most `reach` the other way leaves hardly more over: footprints drawn between the walls of a
@@ -177,11 +179,12 @@ auto clear_shift(const std::vector<Match>& matches, const Options& o) -> std::op
   if (!common) return std::nullopt;
   const double moved = length(common->shift);
   if (!(moved >= o.registration_minimum_shift && moved <= o.gis_offset)) return std::nullopt;
-  const double error = standard_error(matches, *common);
+  const double error = standard_error(matches, *common, o);
   const auto is_clear = [&](const Common& with, const Common& without) {
     const double left = left_over(matches, with, o), before = left_over(matches, without, o);
     // The median: annexes and set-backs stand far from their outline wherever that lies.
-    const bool stands = moved >= o.registration_stands_out * median_rest(matches, with);
+    const bool stands =
+        moved >= o.registration_stands_out * std::max(median_rest(matches, with), o.registration_noise / of_median);
     const bool sure = moved >= o.registration_significance * error && left <= (1 - o.registration_explains) * before;
     return left < before && (stands || sure) && !fits_the_other_way(matches, with, o.gis_offset, o);
   };
@@ -200,10 +203,11 @@ auto shift_astray(const std::vector<Match>& matches, const Options& o) -> std::o
   const Common shift{common->shift, 0};
   const double moved = length(shift.shift),
                most = o.gis_offset * o.registration_distance_astray / o.registration_distance;
-  const bool clear = moved > o.gis_offset && moved <= most &&
-                     moved >= o.registration_stands_out * median_rest(matches, shift) &&
-                     moved >= o.registration_significance * standard_error(matches, *common) &&
-                     left_over(matches, shift, o) <= (1 - o.registration_explains_astray) * left_over(matches, {}, o);
+  const bool clear =
+      moved > o.gis_offset && moved <= most &&
+      moved >= o.registration_stands_out * std::max(median_rest(matches, shift), o.registration_noise / of_median) &&
+      moved >= o.registration_significance * standard_error(matches, *common, o) &&
+      left_over(matches, shift, o) <= (1 - o.registration_explains_astray) * left_over(matches, {}, o);
   return clear && !fits_the_other_way(matches, shift, most, o) ? std::optional(shift.shift) : std::nullopt;
 }
 
