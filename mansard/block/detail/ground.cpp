@@ -57,9 +57,12 @@ struct Obstacles {
   }
   [[nodiscard]] auto hold(Point2 p) const -> bool {
     for (std::size_t i = 0; i < polygons.size(); ++i)
-      if (boxes[i].contains(p) &&
-          (geometry::contains(*polygons[i], p) || geometry::boundary_distance(*polygons[i], p) < overhang))
-        return true;
+      if (boxes[i].contains(p) && geometry::contains(*polygons[i], p)) return true;
+    return false;
+  }
+  [[nodiscard]] auto are_near(Point2 p) const -> bool {
+    for (std::size_t i = 0; i < polygons.size(); ++i)
+      if (boxes[i].contains(p) && geometry::boundary_distance(*polygons[i], p) < overhang) return true;
     return false;
   }
 };
@@ -113,6 +116,8 @@ auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Po
     for (; at != order.end() && boxes[*at].least.x <= boxes[i].most.x; ++at)
       if (boxes[*at].overlaps(boxes[i])) obstacles.add(shapes[*at]);
     const Nearness near(shapes[i], reach);
+    std::vector<Sample> beside;  // may be of eaves
+    double clear = 0;            // m² of the others
     for (const std::uint32_t index : triangles[i]) {
       const auto& t = mesh.triangles[index];
       const Triangle3 corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
@@ -121,9 +126,15 @@ auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Po
         const Point3 centre = (1.0 / 3) * (piece[0] + piece[1] + piece[2]);
         if (!near(xy(centre)) || obstacles.hold(xy(centre))) return;
         const double area = std::abs(cross(xy(piece[1]) - xy(piece[0]), xy(piece[2]) - xy(piece[0]))) / 2;
-        out[i].push_back({xy(centre), centre.z, area});
+        if (obstacles.are_near(xy(centre))) {
+          beside.push_back({xy(centre), centre.z, area});
+        } else {
+          out[i].push_back({xy(centre), centre.z, area});
+          clear += area;
+        }
       });
     }
+    if (clear >= options.ground_area) out[i].insert(out[i].end(), beside.begin(), beside.end());
   });
   return out;
 }
@@ -167,7 +178,8 @@ auto beside_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Po
   };
   std::vector<Sample> out;
   each_sample(mesh, [&](const Sample& sample, Point3 normal) {
-    if (!obstacles.hold(sample.at) || (is_steep(normal, options) && on_outline(sample.at))) out.push_back(sample);
+    const bool off = !obstacles.hold(sample.at) && !obstacles.are_near(sample.at);
+    if (off || (is_steep(normal, options) && on_outline(sample.at))) out.push_back(sample);
   });
   return out;
 }

@@ -21,7 +21,8 @@ struct Sample {
 [[nodiscard]] auto percentile(std::vector<Sample> samples, double share, double least) -> std::optional<double>;
 
 /// What may be ground within the ring of each of the first `count` shapes (polygons of one footprint): small pieces of
-/// triangles that are not steep, farther than Options::overhang from all shapes. One list per shape, in the order of
+/// triangles that are not steep, outside all shapes; those that are no farther than Options::overhang from one only
+/// where there are enough of others, which shows that they are no eaves. One list per shape, in the order of
 /// the mesh.
 [[nodiscard]] auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<geometry::Polygon>>& shapes,
                                   std::size_t count, const Options& options) -> std::vector<std::vector<Sample>>;
