@@ -84,9 +84,9 @@ auto inputs_of(const DoctorRequest& request, const pipeline::Options& options, c
     if (scan) {
       all.push_back({Found::fine, "accuracy", accuracy::in_a_sentence(scan->accuracy), ""});
       for (const auto& why : scan->findings) all.push_back({Found::note, "scan", base::to_string(why), ""});
-    } else
-
+    } else {
       for (const auto& why : scan.errors()) all.push_back({Found::problem, "accuracy", base::to_string(why), ""});
+    }
   }
   return all;
 }

@@ -5,7 +5,6 @@
 #include "apps/cli/formats.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/shell_word.hpp"
-#include "mansard/base/text.hpp"
 #include "mansard/ingest/join.hpp"
 #include "mansard/pipeline/placing.hpp"
 
@@ -196,9 +195,8 @@ auto align(const ScanRequest& request, pipeline::Options& options, const base::R
     return done;
   }
   options.ingest.mesh_offset = **offset;
-  std::string words = "--mesh-offset";
-  for (const double value : **offset) words += " " + base::to_text(value);
-  done.push_back(base::warning("scan-aligned", "the mesh was moved to the footprints: " + words));
+  done.push_back(
+      base::warning("scan-aligned", "the mesh was moved to the footprints: " + pipeline::offset_in_words(**offset)));
   return done;
 }
 

@@ -10,6 +10,7 @@
 #include "mansard/accuracy/accuracy.hpp"
 #include "mansard/accuracy/detail/transects.hpp"
 #include "mansard/base/run.hpp"
+#include "mansard/geometry/change.hpp"
 
 namespace mansard::accuracy {
 namespace {
@@ -23,13 +24,14 @@ constexpr double storey = 3;     // m; a higher wall says no more
 constexpr int reach = static_cast<int>(most_displaced / lattice);
 constexpr int tried = 2 * reach + 1;
 
+auto index(double metres) -> std::int64_t { return static_cast<std::int64_t>(std::floor(metres / lattice + 0.5)); }
+
 /// Heights of a piece on a lattice at whole multiples of its step; NaN for none.
 struct Lattice {
   std::int64_t column = 0, row = 0, columns = 0, rows = 0;
   std::vector<float> heights;
 
   Lattice(const rays::Scene& scene, const geometry::Box2& box) {
-    const auto index = [](double v) { return static_cast<std::int64_t>(std::floor(v / lattice + 0.5)); };
     column = index(box.least.x), row = index(box.least.y);
     columns = index(box.most.x) - column + 1, rows = index(box.most.y) - row + 1;
     heights.assign(static_cast<std::size_t>(columns * rows), std::numeric_limits<float>::quiet_NaN());
@@ -53,7 +55,6 @@ auto falls_of(const Piece& piece) -> std::vector<double> {
   const auto box = geometry::bounds(piece.outline);
   if (box.empty()) return out;
   const Lattice grid(*piece.scene, box.grown(most_displaced + 2 * beside));
-  const auto index = [](double v) { return static_cast<std::int64_t>(std::floor(v / lattice + 0.5)); };
   struct Side {
     std::int64_t column, row, outer_column, outer_row;
     double weight;
@@ -116,11 +117,7 @@ struct Pooled {
   Pooled(std::span<const Piece> all, Point2 moved) {
     for (const auto& piece : all) {
       std::vector<Polygon> outline(piece.outline.begin(), piece.outline.end());
-      for (auto& polygon : outline) {
-        for (auto& p : polygon.outer) p = p + moved;
-        for (auto& hole : polygon.holes)
-          for (auto& p : hole) p = p + moved;
-      }
+      for (auto& polygon : outline) geometry::move(polygon, moved);
       pieces.push_back(detail::across(outline, *piece.mesh, *piece.scene));
     }
   }

@@ -29,29 +29,18 @@ auto numbers_in(std::string_view list) -> std::optional<std::vector<std::uint8_t
   return out;
 }
 
-constexpr std::string_view undecided = "surface where buildings are found by shape";
-
 /// What a class is used for, in words.
-auto use_of(std::uint8_t classification) -> std::string_view {
-  switch (classification) {
-    case ground: return "the ground";
-    case building: return "buildings";
-    case 3:
-    case 4:
-    case 5:
-    case noise:
-    case 13:
-    case 14:
-    case 15:
-    case 16:
-    case 18: return "left out";
-    case 9:
-    case 10:
-    case 11:
-    case 17:
-    case 26: return "surface";
-    default: return undecided;
+auto in_words(Use use) -> std::string_view {
+  switch (use) {
+    case Use::terrain: return "the ground";
+    case Use::buildings: return "buildings";
+    case Use::surface: return "surface";
+    case Use::vegetation:
+    case Use::wires:
+    case Use::outliers: return "left out";
+    case Use::undecided: break;
   }
+  return "surface where buildings are found by shape";
 }
 
 template <class Take>
@@ -101,12 +90,12 @@ auto class_map(const Options& options) -> base::Result<ClassMap> {
 }
 
 auto any_ground(const std::array<std::uint64_t, 256>& counts) -> bool {
-  for (const std::size_t c : {2, 9, 10, 11, 17, 26})
-    if (counts[c] > 0) return true;
+  for (std::size_t c = 0; c < counts.size(); ++c)
+    if (const auto use = use_of(static_cast<std::uint8_t>(c));
+        counts[c] > 0 && (use == Use::terrain || use == Use::surface))
+      return true;
   return false;
 }
-
-auto is_undecided(std::uint8_t classification) -> bool { return use_of(classification) == undecided; }
 
 auto class_name(std::uint8_t classification) -> std::string_view {
   switch (classification) {
@@ -146,7 +135,7 @@ auto classes_in_words(const std::array<std::uint64_t, 256>& counts, const ClassM
     const auto name = class_name(c);
     out += (out.empty() ? "" : ", ") + std::to_string(c) + (name.empty() ? "" : " " + std::string(name)) + " " +
            base::to_text(100 * static_cast<double>(count) / static_cast<double>(all), 1) + " % (" +
-           std::string(use_of(map[c])) + ")";
+           std::string(in_words(use_of(map[c]))) + ")";
   });
   return out;
 }

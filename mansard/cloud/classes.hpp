@@ -13,6 +13,39 @@ namespace mansard::cloud {
 
 inline constexpr std::uint8_t unclassified = 1, ground = 2, building = 6, noise = 7;
 
+/// What points of a class are, and with that what is made of them.
+enum class Use : std::uint8_t {
+  terrain,
+  buildings,
+  surface,     ///< water, roads, rails, bridges, civil structures: neither buildings nor the terrain
+  vegetation,  ///< left out
+  wires,       ///< and their masts: left out
+  outliers,    ///< noise: left out
+  undecided,   ///< the class does not say: a surface only where buildings are found by shape
+};
+/// Of a class as the map has it.
+[[nodiscard]] constexpr auto use_of(std::uint8_t classification) -> Use {
+  switch (classification) {
+    case ground: return Use::terrain;
+    case building: return Use::buildings;
+    case 9:
+    case 10:
+    case 11:
+    case 17:
+    case 26: return Use::surface;
+    case 3:
+    case 4:
+    case 5: return Use::vegetation;
+    case 13:
+    case 14:
+    case 15:
+    case 16: return Use::wires;
+    case noise:
+    case 18: return Use::outliers;
+    default: return Use::undecided;
+  }
+}
+
 /// By the class in the file, the one that it is taken for.
 using ClassMap = std::array<std::uint8_t, 256>;
 
@@ -24,10 +57,6 @@ using ClassMap = std::array<std::uint8_t, 256>;
 /// Whether any points are of a class that can be the ground beside a building: ground, water, roads, rails, bridges.
 /// `counts`: of points by the class that they are taken for.
 [[nodiscard]] auto any_ground(const std::array<std::uint64_t, 256>& counts) -> bool;
-
-/// Whether a class, as the map has it, neither says that a point is of a building nor that it is not: such points are
-/// surface only where buildings are found by shape.
-[[nodiscard]] auto is_undecided(std::uint8_t classification) -> bool;
 
 /// The name that the specification gives a class, in lower case; empty for one that it reserves or leaves to users.
 [[nodiscard]] auto class_name(std::uint8_t classification) -> std::string_view;

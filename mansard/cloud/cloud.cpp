@@ -42,8 +42,9 @@ auto flags_of(const Sample& s) -> std::uint8_t {
 }
 
 /// The number of points, and the mean height of those of class 2, in every metre of the tile itself.
-auto ground_of(const std::vector<detail::Point>& points, std::int64_t cell, std::int64_t x, std::int64_t y)
-    -> std::pair<GroundTile, std::uint64_t> {
+/// `by_class`: whether buildings are found by class, where points that no class decides are of interest.
+auto ground_of(const std::vector<detail::Point>& points, std::int64_t cell, std::int64_t x, std::int64_t y,
+               bool by_class) -> std::pair<GroundTile, std::uint64_t> {
   GroundTile out;
   const std::int64_t side = cell * tile_cells, border = cell * halo;
   out.x = floored(x, per_metre);
@@ -57,7 +58,7 @@ auto ground_of(const std::vector<detail::Point>& points, std::int64_t cell, std:
     if (px < 0 || py < 0 || px >= side || py >= side) continue;
     const auto i = static_cast<std::size_t>(py / per_metre) * out.columns + static_cast<std::size_t>(px / per_metre);
     out.points[i] += 1;
-    if (is_undecided(p.classification)) {
+    if (by_class && use_of(p.classification) == Use::undecided) {
       auto& [number, heights] = undecided[{static_cast<std::uint32_t>(i), p.classification}];
       ++number;
       heights += p.z;
@@ -274,7 +275,6 @@ auto Surface::make(const Tile& tile) const -> base::Result<TileSurface> {
   }
   const std::int64_t side = cell_ * tile_cells, border = cell_ * halo;
   const std::int64_t x = tile.first * side, y = tile.second * side;
-  std::tie(out.ground, out.counts.ground_cells) = ground_of(metres.points(), cell_, x, y);
   out.strips = detail::compare_strips(metres);
   auto mode = options_.buildings;
   if (mode == Buildings::automatic)
@@ -282,7 +282,7 @@ auto Surface::make(const Tile& tile) const -> base::Result<TileSurface> {
                                 options_.building_share * static_cast<double>(metres.points().size())
                ? Buildings::by_class
                : Buildings::by_shape;
-  if (mode != Buildings::by_class) out.ground.undecided.clear();
+  std::tie(out.ground, out.counts.ground_cells) = ground_of(metres.points(), cell_, x, y, mode == Buildings::by_class);
   ++(mode == Buildings::by_class ? out.counts.tiles_by_class : out.counts.tiles_by_shape);
   detail::Grid grid(std::move(metres).take(), cell_, mode);
   detail::clean(grid, options_, out.counts);

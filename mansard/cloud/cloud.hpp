@@ -81,7 +81,7 @@ struct GroundTile {
   std::size_t columns = 0, rows = 0;
   std::vector<float> heights;  ///< m; row by row from the south; NaN for none
   std::vector<float> points;   ///< of all classes but noise, likewise; 0 for none
-  /// Points of a class that says nothing of what they are (is_undecided), where buildings are found by class: so many
+  /// Points of a class that says nothing of what they are (Use::undecided), where buildings are found by class: so many
   /// in a cell, by its number in `points`, and their mean height.
   struct Undecided {
     std::uint32_t cell = 0;

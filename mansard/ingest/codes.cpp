@@ -50,8 +50,7 @@ auto own_codes() -> std::vector<base::Code> {
        "Give the --cloud-building-classes of the message, if the class has roofs.", 0},
       {"ingest-points-twice",
        "Points are repeated in the point clouds: the same tile was given twice, deliveries overlap, or a file has "
-       "points "
-       "twice. A point that was measured once counts once.",
+       "points twice. A point that was measured once counts once.",
        "Nothing to do; leaving the repetitions out saves time.", 0},
       {"ingest-points-strips", "Flight strips of a point cloud differ in height where they overlap.",
        "Ask the cloud's producer for a strip adjustment if the difference matters; nothing is corrected.", 0},

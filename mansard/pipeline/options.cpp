@@ -434,8 +434,7 @@ auto codes() -> std::vector<base::Code> {
       {"pipeline-no-mesh",
        "The scan shows no surface over this footprint. It is written without a model (LoD 0), or as a prism of "
        "pipeline.assumed_height where that is set. Where the scan shows another part of the building, the part is as "
-       "high "
-       "as that.",
+       "high as that.",
        "Use a scan that covers the footprint, or set pipeline.assumed_height.", 1},
       {"pipeline-partly-seen",
        "The scan does not cover a part of the footprint. The roof there continues what is seen beside it.",

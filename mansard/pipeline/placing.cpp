@@ -8,6 +8,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/block/block.hpp"
 #include "mansard/crs/candidates.hpp"
+#include "mansard/geometry/change.hpp"
 #include "mansard/ingest/model.hpp"
 #include "mansard/pipeline/scan_checks.hpp"
 
@@ -23,10 +24,6 @@ constexpr std::size_t most_candidates = 12;
 /// Two systems that match this closely are the same for footprints of a metre's accuracy.
 constexpr double tie = 0.02;
 
-auto fits(const align::Match& match) -> bool {
-  return match.correlation >= least_correlation && match.met >= least_met;
-}
-
 /// In the file's coordinates.
 auto outlines_of(const model::Scene& scene) -> std::vector<Polygon> {
   const Point2 origin{static_cast<double>(scene.frame.origin[0]), static_cast<double>(scene.frame.origin[1])};
@@ -34,9 +31,7 @@ auto outlines_of(const model::Scene& scene) -> std::vector<Polygon> {
   for (const auto& footprint : scene.footprints)
     for (auto polygon : footprint.polygons) {
       if (footprint.defect) continue;
-      for (auto& p : polygon.outer) p = p + origin;
-      for (auto& hole : polygon.holes)
-        for (auto& p : hole) p = p + origin;
+      geometry::move(polygon, origin);
       all.push_back(std::move(polygon));
     }
   return all;
@@ -67,13 +62,21 @@ auto in_another_crs(const InputPaths& paths, const Options& options, const geome
 
 }  // namespace
 
+auto fits(const align::Match& match) -> bool {
+  return match.correlation >= least_correlation && match.met >= least_met;
+}
+
+auto offset_in_words(const std::array<double, 3>& offset) -> std::string {
+  std::string words = "--mesh-offset";
+  for (const double value : offset) words += " " + base::to_text(value);
+  return words;
+}
+
 auto options_in_words(const Placing& placing, const Options& options) -> std::string {
   std::string words;
   if (!placing.crs.empty()) words = "--crs " + placing.crs;
-  if (placing.offset != options.ingest.mesh_offset) {
-    words += words.empty() ? "--mesh-offset" : " --mesh-offset";
-    for (const double value : placing.offset) words += " " + base::to_text(value);
-  }
+  if (placing.offset != options.ingest.mesh_offset)
+    words += (words.empty() ? "" : " ") + offset_in_words(placing.offset);
   return words;
 }
 

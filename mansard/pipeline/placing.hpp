@@ -18,6 +18,8 @@ struct Placing {
   std::string working;           ///< the CRS of the coordinates without `crs`, as model::Frame has it; empty: unknown
 };
 
+/// "--mesh-offset 84800 447400 0"
+[[nodiscard]] auto offset_in_words(const std::array<double, 3>& offset) -> std::string;
 /// The options to add to a command, "--mesh-offset 84800 447400 0"; empty where they match as they are.
 [[nodiscard]] auto options_in_words(const Placing& placing, const Options& options) -> std::string;
 /// Why: how much of the footprints is high in the mesh, here and elsewhere.
@@ -29,6 +31,7 @@ struct Placing {
 inline constexpr double least_correlation = 0.2, least_lead = 1.25;
 /// And the share of the footprints, or of what is high, that must have been compared.
 inline constexpr double least_met = 0.5;
+[[nodiscard]] auto fits(const align::Match& match) -> bool;
 
 /// How the files match: as they are; else in a CRS in which the footprints come to lie where the mesh does; else with
 /// an offset of the mesh. None where nothing is found, and where the mesh says where it is and the footprints are

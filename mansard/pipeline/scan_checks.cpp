@@ -12,6 +12,7 @@
 #include "mansard/pipeline/detail/scan_digits.hpp"
 #include "mansard/pipeline/detail/scan_place.hpp"
 #include "mansard/pipeline/detail/scan_sample.hpp"
+#include "mansard/pipeline/placing.hpp"
 
 namespace mansard::pipeline {
 namespace {
@@ -71,13 +72,11 @@ auto way(double metres, const char* positive, const char* negative) -> std::stri
 void add_offset(const accuracy::Registration& found, const Options& options, CheckedScan& out) {
   const auto offset = aligned_offset(found, options.ingest.mesh_offset);
   if (!offset) return;
-  std::string words = "--mesh-offset";
-  for (const double value : *offset) words += " " + to_text(value);
-  out.findings.push_back(base::warning("scan-offset", "the scan is " + way(found.offset.x, "east", "west") + " and " +
-                                                          way(found.offset.y, "north", "south") +
-                                                          " of the footprints (± " + to_text(found.error, 2) + " m, " +
-                                                          std::to_string(found.edges) + " walls); " + words +
-                                                          " corrects it, and so does --align"));
+  out.findings.push_back(
+      base::warning("scan-offset", "the scan is " + way(found.offset.x, "east", "west") + " and " +
+                                       way(found.offset.y, "north", "south") + " of the footprints (± " +
+                                       to_text(found.error, 2) + " m, " + std::to_string(found.edges) + " walls); " +
+                                       offset_in_words(*offset) + " corrects it, and so does --align"));
 }
 
 void add_digits(const model::Scene& scene, const ScanSample& sample, CheckedScan& out) {
@@ -288,7 +287,7 @@ auto check_scan(const model::Scene& scene, const ingest::MeshCells* cells, const
 
 auto scan_codes() -> std::vector<base::Code> {
   return {
-      {"scan-offset", "The scan is beside the footprints, by more than three times the error of this measurement.",
+      {"scan-offset", "The scan is beside the footprints, by more than the error of this measurement explains.",
        "Give the option of the message, or --align, unless the footprints are what is in the wrong place.", 0},
       {"scan-upside-down", "The scan is upside down: footprints are lower than the ground around them.",
        "Multiply the heights of the scan by -1, or turn it over, before it is read.", 3},
@@ -300,12 +299,11 @@ auto scan_codes() -> std::vector<base::Code> {
        "Multiply the coordinates of the scan by the factor of the message before it is read.", 3},
       {"scan-digits",
        "The coordinates of the scan lie on a coarse grid, as 32-bit floats have it far from their origin. From steps "
-       "of "
-       "a metre on it is an error.",
+       "of a metre on it is an error.",
        "Export the scan with an origin near it, or in 64-bit floats.", 3},
       {"scan-ground", "The scan shows no ground beside buildings, so their bases are assumed.",
        "Give a terrain model with --dtm, or --ground-attribute or --ground-height.", 0},
-      {"scan-coverage", "The scan covers not all footprints.",
+      {"scan-coverage", "The scan does not cover all footprints.",
        "Give the scan there, or choose the footprints with --bbox.", 0},
       {"scan-empty", "Footprints are as high as the ground around them in the scan.",
        "Compare the dates of scan and footprints; leave out footprints that are no buildings with --where.", 0},

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "mansard/cloud/classes.hpp"
+
 namespace mansard::cloud::detail {
 namespace {
 
@@ -22,9 +24,9 @@ constexpr double roughness = 0.2;
 /// Whether the height of the point is that of something solid.
 auto is_solid(const Point& p) -> bool {
   if (p.source == 0) return false;  // not known
-  if (p.classification == 2) return true;
-  return (p.flags & only_return) != 0 && (p.classification < 3 || p.classification > 5) &&
-         (p.classification < 13 || p.classification > 16);
+  const auto use = use_of(p.classification);
+  if (use == Use::terrain) return true;
+  return (p.flags & only_return) != 0 && use != Use::vegetation && use != Use::wires;
 }
 
 /// Of a strip's points in a cell: sums from their mean on, in metres.

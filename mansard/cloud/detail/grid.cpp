@@ -5,33 +5,25 @@
 #include <limits>
 #include <tuple>
 
+#include "mansard/cloud/classes.hpp"
+
 namespace mansard::cloud::detail {
 namespace {
-
-constexpr int ground = 2, building = 6, water = 9, rail = 10, road = 11, bridge = 17, civil = 26;
 
 /// Whether a surface is made of it. In a classified cloud what is unclassified are trees, cars and masts (AHN, for
 /// one); elsewhere it is everything.
 auto is_surface(const Point& p, Buildings buildings) -> bool {
-  switch (p.classification) {
-    case ground:
-    case building:
-    case water:
-    case rail:
-    case road:
-    case bridge:
-    case civil: return true;
-    case 13:
-    case 14:
-    case 15:
-    case 16: return false;  // wires and their masts
-    case 3:
-    case 4:
-    case 5: return buildings == Buildings::top;  // vegetation
-    default:
-      return buildings == Buildings::top ||
-             (buildings == Buildings::by_shape && (p.flags & (only_return | last_return)) != 0);
+  switch (use_of(p.classification)) {
+    case Use::terrain:
+    case Use::buildings:
+    case Use::surface: return true;
+    case Use::wires: return false;
+    case Use::vegetation: return buildings == Buildings::top;
+    case Use::outliers:
+    case Use::undecided: break;
   }
+  return buildings == Buildings::top ||
+         (buildings == Buildings::by_shape && (p.flags & (only_return | last_return)) != 0);
 }
 
 }  // namespace

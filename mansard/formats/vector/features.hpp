@@ -51,10 +51,9 @@ struct FeatureQuery {
   std::array<double, 4> bbox{0, 0, 0, 0};  ///< xmin ymin xmax ymax; all zero: everything
 };
 
-/// Reads the chosen layer of any OGR vector source: polygons with curves as segments, and of
-/// their heights the lowest. With
-/// `options.bbox`, features that cannot meet it may be left out already, but never all. A database and what lies on a
-/// server is known by the hash of its features, in the order of their numbers.
+/// Reads the chosen layer of any OGR vector source: polygons with curves as segments, and of their
+/// heights the lowest. With `options.bbox`, features that cannot meet it may be left out already, but never all. A
+/// database and what lies on a server is known by the hash of its features, in the order of their numbers.
 /// Fails with "file-missing", "file-read", "ingest-footprints-format", "ingest-footprints-none",
 /// "ingest-footprints-geometry", "ingest-layer", "ingest-where", "cancelled".
 [[nodiscard]] auto read_features(const std::filesystem::path& path, const FeatureQuery& options, const base::Run& run)

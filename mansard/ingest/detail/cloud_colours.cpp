@@ -15,8 +15,9 @@ using formats::CloudPoint;
 /// What cannot be the surface of a building nor the ground around it: noise, vegetation and wires by class, and what a
 /// pulse went through. `as`: the class that the point's is taken for, here and below.
 auto is_surface(const CloudPoint& p, std::uint8_t as) -> bool {
-  constexpr std::array not_surface{3, 4, 5, 7, 13, 14, 15, 16, 18};
-  return !p.withheld && p.return_number >= p.returns && std::ranges::find(not_surface, as) == not_surface.end();
+  using enum cloud::Use;
+  const auto use = cloud::use_of(as);
+  return !p.withheld && p.return_number >= p.returns && use != vegetation && use != wires && use != outliers;
 }
 
 auto is_ground(std::uint8_t as) -> bool {

@@ -237,13 +237,28 @@ void add_eaves(const PartResult::EavesSeen& eaves, model::Attributes& attributes
 
 namespace {
 
-/// Every feature's attributes that take the mesh.
+/// Whether the scan misses more of a footprint than the smallest detail.
+auto partly_seen(const block::Member& member, double share, const Options& options) -> std::optional<base::Diagnostic> {
+  double area = 0;
+  for (const auto& polygon : member.polygons) area += geometry::area(polygon);
+  if (share < options.partly_seen || share * area < options.refine.least_area) return std::nullopt;
+  return base::warning("pipeline-partly-seen", "the scan does not cover " + base::to_text(100 * share, 0) +
+                                                   " % of the footprint; the roof there is continued from what it "
+                                                   "shows");
+}
+
+struct Measured {
+  std::vector<std::pair<std::size_t, model::Attributes>> attributes;  ///< that take the mesh; by feature
+  std::vector<std::pair<std::size_t, base::Diagnostic>> doubts;       ///< of features with a model
+};
 /// `known`: the mesh where it shows what is built.
 auto measured(const block::Block& block, const rays::Scene& mesh, const rays::Scene& known,
               const std::vector<PartResult>& parts, const std::vector<std::pair<std::size_t, SolidsOf>>& solids,
-              const Options& options) -> std::vector<std::pair<std::size_t, model::Attributes>> {
-  std::vector<std::pair<std::size_t, model::Attributes>> out(block.members.size());
-  base::parallel_for(out.size(), [&](std::size_t m) {
+              const Options& options) -> Measured {
+  Measured out;
+  out.attributes.resize(block.members.size());
+  std::vector<std::optional<base::Diagnostic>> doubts(block.members.size());
+  base::parallel_for(block.members.size(), [&](std::size_t m) {
     const auto& member = block.members[m];
     model::Building building;
     for (const auto& part : parts) {
@@ -254,7 +269,7 @@ auto measured(const block::Block& block, const rays::Scene& mesh, const rays::Sc
     }
     const auto made = std::ranges::find(solids, member.feature, &std::pair<std::size_t, SolidsOf>::first);
     if (made != solids.end()) building.solids = made->second.solids;
-    auto& [feature, attributes] = out[m];
+    auto& [feature, attributes] = out.attributes[m];
     feature = member.feature;
     if (!building.solids.empty())
       attributes = report::level_measures(building, {}, options.write.levels, &mesh, options.evaluate.grid);
@@ -269,30 +284,10 @@ auto measured(const block::Block& block, const rays::Scene& mesh, const rays::Sc
     const auto seen = report::coverage(known, member.polygons, options.roof_grid);
     attributes.emplace_back("ms_nodata_share", seen.missing);
     attributes.emplace_back("ms_nodata_radius", seen.radius);
+    if (made != solids.end()) doubts[m] = partly_seen(member, seen.missing, options);
   });
-  return out;
-}
-
-/// Of every feature with a model, whether the scan misses more of it than the smallest detail.
-auto partly_seen(const block::Block& block, const Options& options, const BlockResult& result)
-    -> std::vector<std::pair<std::size_t, base::Diagnostic>> {
-  std::vector<std::pair<std::size_t, base::Diagnostic>> out;
-  for (const auto& [feature, attributes] : result.measures) {
-    const auto number = [&](std::string_view name) {
-      const auto at = std::ranges::find(attributes, name, &model::Attributes::value_type::first);
-      const auto* value = at == attributes.end() ? nullptr : std::get_if<double>(&at->second);
-      return value == nullptr ? 0.0 : *value;
-    };
-    const auto made = std::ranges::find(result.solids, feature, &std::pair<std::size_t, SolidsOf>::first);
-    if (made == result.solids.end()) continue;
-    double area = 0;
-    for (const auto& polygon : block.members[feature].polygons) area += geometry::area(polygon);
-    const double share = number("ms_nodata_share");
-    if (share < options.partly_seen || share * area < options.refine.least_area) continue;
-    out.emplace_back(feature, base::warning("pipeline-partly-seen",
-                                            "the scan does not cover " + base::to_text(100 * share, 0) +
-                                                " % of the footprint; the roof there is continued from what it shows"));
-  }
+  for (std::size_t m = 0; m < doubts.size(); ++m)
+    if (doubts[m]) out.doubts.emplace_back(block.members[m].feature, *std::move(doubts[m]));
   return out;
 }
 
@@ -345,9 +340,10 @@ auto run_block(const block::Block& block, const Options& asked, const base::Run&
   if (options.profile.overhangs != profile::Overhangs::off)
     out.solids = stage("overhangs", tell, report,
                        [&] { return with_overhangs(shown.block().mesh, options, run, parts, std::move(out.solids)); });
-  out.measures =
+  auto found =
       stage("measure", tell, report, [&] { return measured(block, mesh, shown.mesh(), parts, out.solids, options); });
-  out.doubts = partly_seen(block, options, out);
+  out.measures = std::move(found.attributes);
+  out.doubts = std::move(found.doubts);
 
   std::vector<model::LabelledSolid> models;
   std::vector<Polygon> footprints;

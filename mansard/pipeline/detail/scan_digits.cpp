@@ -10,8 +10,8 @@ namespace {
 using geometry::Point3;
 
 /// m; those of floats are powers of two, those of text files with few digits decimal.
-constexpr std::array candidates{8.0, 4.0,    2.0,  1.0,     0.5,   0.25, 0.2,     0.125,
-                                0.1, 0.0625, 0.05, 0.03125, 0.025, 0.02, 0.015625};
+constexpr std::array tried_steps{8.0, 4.0,    2.0,  1.0,     0.5,   0.25, 0.2,     0.125,
+                                 0.1, 0.0625, 0.05, 0.03125, 0.025, 0.02, 0.015625};
 constexpr double fine = 0.01;  // m: what laser points and compressed meshes are rounded to
 constexpr std::size_t most_values = 20'000;
 
@@ -27,11 +27,11 @@ auto share_on(const std::vector<double>& values, double step) -> double {
          static_cast<double>(values.size());
 }
 
-/// The coarsest step of the candidates; 0 where the values lie on none.
+/// The coarsest of these steps; 0 where the values lie on none.
 auto step_of(const std::vector<double>& values) -> double {
   // Steps of at least 15 mm, of which at most 2 mm count: by chance one value in seven.
   constexpr double nearly_all = 0.98;
-  for (const double step : candidates)
+  for (const double step : tried_steps)
     if (share_on(values, step) >= nearly_all) return step;
   return 0;
 }

@@ -71,10 +71,6 @@ auto candidates_of(const model::Scene& scene, const Options& options, Point3 mid
   return out;
 }
 
-auto fits_well(const align::Match& match) -> bool {
-  return match.correlation >= least_correlation && match.met >= least_met;
-}
-
 }  // namespace
 
 auto other_place(const model::Scene& scene, const Options& options, const base::Run& run)
@@ -85,7 +81,7 @@ auto other_place(const model::Scene& scene, const Options& options, const base::
   if (outlines.empty() || scene.mesh.triangles.empty()) return std::nullopt;
   // What fits as it is, is in its place: its buildings are low, or gone.
   const auto here = align::match_at(scene.mesh, outlines, 0, 0);
-  if (here && fits_well(*here)) return std::nullopt;
+  if (here && fits(*here)) return std::nullopt;
   const auto along = [&](std::size_t axis) {
     return static_cast<double>(scene.frame.origin[axis]) - options.ingest.mesh_offset[axis];
   };
@@ -104,7 +100,7 @@ auto other_place(const model::Scene& scene, const Options& options, const base::
     const auto plan = geometry::Box2::of(changed.vertices);
     if (plan.most.x - plan.least.x > largest || plan.most.y - plan.least.y > largest) continue;
     const auto match = align::match_at(changed, outlines, 0, 0);
-    if (!match || !fits_well(*match) || (found && match->correlation <= found->correlation)) continue;
+    if (!match || !fits(*match) || (found && match->correlation <= found->correlation)) continue;
     found = match;
     best = &candidate;
   }
@@ -116,7 +112,7 @@ auto other_place(const model::Scene& scene, const Options& options, const base::
   if (best != nullptr)
     return base::error(best->code, "the scan does not fit the footprints: " + best->words + evidence(*found));
   const auto moved = align::best_match(scene.mesh, outlines, {}, run);
-  if (!moved || !fits_well(*moved) || moved->correlation < least_lead * moved->next) return std::nullopt;
+  if (!moved || !fits(*moved) || moved->correlation < least_lead * moved->next) return std::nullopt;
   Placing placing{{}, {}, options.ingest.mesh_offset, *moved, scene.frame.crs};
   placing.offset[0] += moved->x;
   placing.offset[1] += moved->y;
