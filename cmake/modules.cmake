@@ -29,13 +29,14 @@ mansard_module(planes   DEPENDS base geometry                                   
 mansard_module(refine   DEPENDS base geometry rays model solid extrude planes)
 mansard_module(label    DEPENDS base geometry rays model solid                  TESTED_WITH extrude)
 mansard_module(evaluate DEPENDS base geometry rays model solid block label      TESTED_WITH ingest extrude)
+mansard_module(confidence DEPENDS base geometry rays model solid evaluate      TESTED_WITH extrude)
 mansard_module(derive   DEPENDS base geometry rays model crs                    USES GDAL::GDAL TESTED_WITH ingest)
 mansard_module(align    DEPENDS base geometry)
 mansard_module(roof     DEPENDS base geometry model extrude)
 mansard_module(terrain  DEPENDS base geometry model solid)
 mansard_module(picture  DEPENDS base geometry rays                              USES PNG::PNG)
-mansard_module(report   DEPENDS base geometry rays model accuracy solid formats texture sweep fracture segment label evaluate picture USES nlohmann_json TESTED_WITH pipeline)
-mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats cloud ingest block accuracy vegetation slice sweep fracture segment profile extrude planes refine label evaluate derive align roof terrain picture report texture)
+mansard_module(report   DEPENDS base geometry rays model accuracy solid formats texture sweep fracture segment label evaluate confidence picture USES nlohmann_json TESTED_WITH pipeline)
+mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats cloud ingest block accuracy vegetation slice sweep fracture segment profile extrude planes refine label evaluate confidence derive align roof terrain picture report texture)
 mansard_module(edit     DEPENDS base geometry rays model solid formats ingest extrude label evaluate report pipeline USES nlohmann_json)
 
 # Experiments: used by the programs and the tests, not part of what is installed.

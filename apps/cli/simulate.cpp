@@ -166,17 +166,22 @@ auto add_models(const model::City& city, std::vector<std::pair<std::string, std:
 auto write_all(const SimulateRequest& request, const simulate::Options& options, const KnownTruth& known,
                const base::Run& run, Progress& progress) -> base::Result<void> {
   const auto& truth = known.truth;
-  const auto scan = simulate::scan(known.surface, options.scan, run.seed, run);
+  auto scan = simulate::scan(known.surface, options.scan, run.seed, run);
   if (!scan) return scan.failure();
-  const auto footprints = simulate::survey(truth, options.survey, run.seed);
+  auto footprints = simulate::survey(truth, options.survey, run.seed);
   if (!footprints) return footprints.failure();
+  const auto faults =
+      simulate::faults_of(truth, options.scan.faults, request.points > 0, options.survey.heights, run.seed);
+  simulate::plant(faults, truth, run.seed, *scan);
+  simulate::plant(faults, truth, *footprints);
 
   progress.show("write", request.out, 1);
-  simulate::Planted planted{scan->planted, {}};
+  simulate::Planted planted{scan->planted, {}, faults};
   std::optional<std::string> points;
   if (request.points > 0) {
-    const auto drawn = simulate::airborne_points(
+    auto drawn = simulate::airborne_points(
         *scan, {request.points, options.scan.points_noise, options.scan.points_noise_plan}, run.seed);
+    simulate::plant(faults, truth, run.seed, drawn);
     planted.points = drawn.planted;
     auto bytes = formats::las(drawn.points, truth.city.frame);
     if (!bytes) return bytes.failure();

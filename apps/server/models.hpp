@@ -183,6 +183,7 @@ class Models {
     std::string block, outcome;
     Json reasons;  ///< an array; null for none
     double ground = 0, volume = 0;
+    std::optional<double> confidence;  ///< probability that the model of the run is right
   };
   std::vector<Report> reports_;  // what edits do not change, and the volume that the run measured
 

@@ -131,6 +131,10 @@ auto Models::list() const -> std::string {
   out += column("outcomes", all, [&](auto i) { return text_of(reports_[i].outcome); });
   out += column("volumes", all, [&](auto i) { return text_of(std::round(all[i]->volume * 100) / 100); });
   out += column("errors", all, [&](auto i) { return all[i]->mse ? text_of(*all[i]->mse) : std::string("null"); });
+  out += column("confidences", all, [&](auto i) {
+    const auto& right = reports_[i].confidence;
+    return right && !all[i]->edited ? text_of(*right) : std::string("null");
+  });
   out += column("edited", all, [&](auto i) { return std::string(all[i]->edited ? "true" : "false"); });
   out += column("shapes", all, [&](auto i) { return shapes_of(all[i]->parts); });
   return out + R"(,"reasons":{)" + reasons + R"(},"history":)" + text_of(now->history) + '}';

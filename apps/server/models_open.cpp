@@ -115,6 +115,7 @@ auto Models::read_reports(const std::filesystem::path& path) -> base::Result<voi
       // The report has no ground height for a building without parts; the plans have it.
       report.ground = building.contains("ground_m") ? building.at("ground_m").get<double>() - z0
                                                     : city_.buildings[at->second].ground;
+      if (building.contains("confidence")) report.confidence = building.at("confidence").at("right").get<double>();
       if (building.contains("volume_m3")) report.volume = building.at("volume_m3").get<double>();
     }
     for (std::size_t b = 0; b < reports_.size(); ++b)
@@ -182,7 +183,7 @@ auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
     if (history_.edited(source.id))
       for (std::size_t p = 0; p < source.parts.size(); ++p) {
         const double mse = evaluate::error_over(building.parts[p].model->solid, model::polygon_of(source.parts[p].plan),
-                                                *mesh, options_.evaluate.grid);
+                                                *mesh, options_.evaluate);
         if (std::isfinite(mse)) building.parts[p].mse = mse;
       }
     const auto own = geometry::bounds(member->polygons);
@@ -264,6 +265,7 @@ auto Models::with_models(Seen named, const edit::RaisedBuilding& raised) const -
   json["reasons"] = report.reasons.is_null() ? Json::array() : report.reasons;
   json["ground"] = report.ground;
   json["edited"] = out->edited;
+  json["confidence"] = report.confidence && !out->edited ? Json(*report.confidence) : Json(nullptr);
   out->json = text_of(json);
   return out;
 }

@@ -118,6 +118,16 @@ auto planted_json(const Planted& planted, const Options& options) -> Json {
   return out;
 }
 
+auto faults_json(const std::vector<Fault>& faults, const model::City& city) -> Json {
+  Json out = Json::array();
+  for (const auto& fault : faults)
+    out.push_back({{"building", city.buildings[fault.building].id},
+                   {"kind", to_string(fault.kind)},
+                   {"amount", fault.amount},
+                   {"direction", fault.direction}});
+  return out;
+}
+
 auto height(const std::optional<double>& z, double z0) -> Json { return z ? Json(z0 + *z) : Json(nullptr); }
 
 }  // namespace
@@ -243,6 +253,7 @@ auto truth_json(const Truth& truth, const std::vector<model::Footprint>& footpri
                      {"within", crown.within}});
   }
   out["crowns"] = std::move(trees);
+  if (planted && !planted->faults.empty()) out["faults"] = faults_json(planted->faults, truth.city);
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

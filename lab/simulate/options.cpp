@@ -52,6 +52,7 @@ auto option_list(Options& o) -> base::OptionList {
       .number("generalise", survey.generalise, "m", {0, 5}, "Corners of outlines flatter than this are left out.")
       .number("eaves", survey.eaves, "m", {0, 3}, "Outlines are drawn so much larger, but for party walls.")
       .number("merged", survey.merged, "", {0, 1}, "Share of party walls across which two houses are one feature.");
+  list.flag("heights", survey.heights, "Outlines have the height of the building as an attribute, to 0.1 m.");
   list.number("resolution", scan.resolution, "m", {0.05, 5}, "Edge length of the mesh.")
       .alias("resolution")
       .number("melt", scan.melt, "m", {0, 3}, "Standard deviation of the smoothing that rounds corners and edges.")
@@ -86,7 +87,10 @@ auto option_list(Options& o) -> base::OptionList {
       .number("points_noise", scan.points_noise, "m", {0, 5},
               "Standard deviation of the height of each point of --points, independent of the others.")
       .number("points_noise_plan", scan.points_noise_plan, "m", {0, 5},
-              "Standard deviation of the x and the y of each point of --points, independent of the others.");
+              "Standard deviation of the x and the y of each point of --points, independent of the others.")
+      .number("faults", scan.faults, "", {0, 1},
+              "Share of buildings of which scan or footprint have a fault each, as surveys have them; truth.json lists "
+              "them.");
   return list;
 }
 

@@ -73,9 +73,9 @@ auto accuracy_of(const detail::Roughness& rough, const ScanOptions& options) -> 
 }  // namespace
 
 auto keeps_faces(const ScanOptions& options) -> bool {
-  const auto unwanted = {options.melt,          options.noise,  options.bulge,     options.holes,
-                         options.missing_walls, options.seam,   options.trees,     options.cars,
-                         options.chimneys,      options.crowns, options.roof_trees};
+  const auto unwanted = {options.melt,          options.noise,  options.bulge,      options.holes,
+                         options.missing_walls, options.seam,   options.trees,      options.cars,
+                         options.chimneys,      options.crowns, options.roof_trees, options.faults};
   return options.exact && !options.height_field && std::ranges::all_of(unwanted, [](double x) { return x <= 0; });
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "lab/simulate/faults.hpp"
 #include "mansard/base/options.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/run.hpp"
@@ -53,6 +54,7 @@ struct SurveyOptions {
   double eaves = 0;                   ///< outlines drawn so much larger, but for party walls
   double merged = 0.1;                ///< share of party walls across which two houses are one feature
   std::optional<double> direction{};  ///< rad; of the displacement, from x; none: drawn
+  bool heights = false;               ///< features have the attribute `height`, as a register would, to 0.1 m
 };
 
 /// How the scan sees the block. Lengths in metres.
@@ -82,10 +84,11 @@ struct ScanOptions {
   bool exact = false;            ///< the faces themselves, where keeps_faces() holds
   double points_noise = 0;       ///< standard deviation of the height of each point of airborne_points()
   double points_noise_plan = 0;  ///< and of its x and its y
+  double faults = 0;             ///< share of buildings with a fault of the survey each: faults.hpp
 };
 /// Whether a scan consists of the faces of the truth: `exact` is set, and nothing is asked for that needs samples
-/// (melt, noise, bulge, holes, missing walls, seams, trees, cars, chimneys, crowns, a height field). Otherwise the
-/// scan is sampled at `resolution`.
+/// (melt, noise, bulge, holes, missing walls, seams, trees, cars, chimneys, crowns, faults, a height field). Otherwise
+/// the scan is sampled at `resolution`.
 [[nodiscard]] auto keeps_faces(const ScanOptions& options) -> bool;
 
 struct Options {
@@ -248,9 +251,10 @@ struct Scan {
 struct Planted {
   Accuracy mesh;
   std::optional<Accuracy> points;
+  std::vector<Fault> faults{};
 };
 /// What the files beside it do not say: party walls, roofs of the buildings, crowns over them, options, seed, and the
-/// accuracy that was planted. `source` names the kind of block or the file.
+/// accuracy and the faults that were planted. `source` names the kind of block or the file.
 [[nodiscard]] auto truth_json(const Truth& truth, const std::vector<model::Footprint>& footprints,
                               const Options& options, const std::string& source, const std::vector<Crown>& crowns = {},
                               const std::optional<Planted>& planted = {}) -> std::string;

@@ -107,6 +107,17 @@ auto drawn_outline(Polygon polygon, const SurveyOptions& options, std::uint64_t 
   return valid;
 }
 
+/// m above the ground, to 0.1 m: of the highest building of a feature.
+auto height_of(const Truth& truth, const std::vector<std::size_t>& feature, std::size_t of) -> double {
+  double high = 0;
+  for (std::size_t b = of; b < feature.size(); ++b)
+    if (feature[b] == of)
+      for (const auto& part : truth.city.buildings[b].parts)
+        for (const auto v : part.model.solid.vertices) high = std::max(high, v.z - truth.city.buildings[b].ground);
+  constexpr double tenths = 10;
+  return std::round(high * tenths) / tenths;
+}
+
 }  // namespace
 
 auto offset_of(const SurveyOptions& options, std::uint64_t seed) -> Point2 {
@@ -137,6 +148,7 @@ auto survey(const Truth& truth, const SurveyOptions& options, std::uint64_t seed
     auto& footprint = footprints.emplace_back();
     footprint.id = truth.city.buildings[f].id;
     footprint.attributes = {{"id", footprint.id}, {"buildings", buildings}};
+    if (options.heights) footprint.attributes.emplace_back("height", height_of(truth, feature, f));
   }
   auto drawn = with_eaves(std::move(outlines), options.eaves);
   if (!drawn) return drawn.error();

@@ -233,6 +233,7 @@ void move(Block& block, Point3 by) {
     member.ground += by.z;
   }
   shift(block.outline, xy(by));
+  shift(block.beside, xy(by));
   for (auto* places : {&block.mesh.vertices, &block.mesh.points})
     for (Point3& v : *places) v = v + by;
   block.ground += by.z;
@@ -542,6 +543,10 @@ auto Partition::make(std::size_t i) const -> Block {
   for (const auto& member : block.members) around.shapes.push_back(member.polygons);
   const auto beside = others_of(shapes_near[i], groups[i], shapes, -1.0 * xy(origin));
   around.shapes.insert(around.shapes.end(), beside.begin(), beside.end());
+  const auto reach = geometry::bounds(block.outline).grown(beside_reach);
+  for (const auto& shape : beside)
+    for (const auto& polygon : shape)
+      if (reach.overlaps(geometry::bounds(polygon.outer))) block.beside.push_back(polygon);
   set_ground(block, scene, around, within_reach[i], options);
   move(block, origin);
   return block;

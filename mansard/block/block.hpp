@@ -30,6 +30,8 @@ enum class GroundSource : std::uint8_t {
   assumed,     ///< a storey below the lowest roof: nothing shows the ground
   unknown,     ///< there is no scan near it
 };
+/// m; how far from its outline a building's own walls, decks and scaffolds are looked for (confidence).
+inline constexpr double beside_reach = 3;
 /// As in attributes: "terrain".
 [[nodiscard]] auto to_string(GroundSource source) -> std::string_view;
 
@@ -50,6 +52,7 @@ struct Block {
   bool ground_known = true;                  ///< false where nothing says a ground and no mesh is near; it is 0 then
   std::array<std::int64_t, 3> origin{};      ///< of its own frame, in that of the scene; whole metres
   std::vector<base::Diagnostic> warnings{};  ///< "block-outline", without subject
+  std::vector<geometry::Polygon> beside{};   ///< other footprints within beside_reach of its box
 };
 
 /// A block in its own frame, which begins at whole metres below it, and with its members in an order of their own: all

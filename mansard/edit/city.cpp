@@ -69,9 +69,9 @@ auto edited_city(const model::City& city, const History& history, const MeshOf& 
         continue;
       }
       const auto why = fallback.find({b, p});
-      part.attributes = report::part_attributes(part, why != fallback.end() ? why->second : std::string(),
-                                                mesh_of ? mesh_of(building.id) : nullptr, z0,
-                                                {options.roof_grid, options.evaluate.grid});
+      part.attributes =
+          report::part_attributes(part, why != fallback.end() ? why->second : std::string(),
+                                  mesh_of ? mesh_of(building.id) : nullptr, z0, {options.roof_grid, options.evaluate});
       set(part.attributes, edited_mark, true);
     }
     if (!history.edited(building.id)) return;

@@ -201,7 +201,7 @@ auto raise(std::span<const NamedPlan> parts, const Site& site, const pipeline::O
     part.volume = solid::volume(part.model->solid);
     if (site.mesh == nullptr) return;
     const double mse =
-        evaluate::error_over(part.model->solid, model::polygon_of(parts[i].plan), *site.mesh, options.evaluate.grid);
+        evaluate::error_over(part.model->solid, model::polygon_of(parts[i].plan), *site.mesh, options.evaluate);
     if (std::isfinite(mse)) part.mse = mse;
   });
 

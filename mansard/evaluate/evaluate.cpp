@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "mansard/evaluate/detail/sums.hpp"
+#include "mansard/evaluate/walls.hpp"
 
 namespace mansard::evaluate {
 namespace {
@@ -110,25 +111,43 @@ auto compare(const geometry::Mesh& surface, const rays::Scene& mesh, std::span<c
   return out;
 }
 
-auto error_over(const model::Solid& solid, const geometry::Polygon& polygon, const rays::Scene& mesh, double grid)
-    -> double {
+auto error_over(const model::Solid& solid, const geometry::Polygon& polygon, const rays::Scene& mesh,
+                const Options& options) -> double {
   constexpr double unknown = std::numeric_limits<double>::infinity();
   const auto pieces = solid::triangulate(solid);
   if (!pieces || solid.vertices.empty()) return unknown;
   const rays::Scene top(geometry::Mesh{solid.vertices, pieces->triangles});
   double base = solid.vertices.front().z;
   for (const auto& v : solid.vertices) base = std::min(base, v.z);
-  const Grid cells = detail::grid_over(geometry::bounds(polygon.outer), grid);
+  const Grid cells = detail::grid_over(geometry::bounds(polygon.outer), options.grid);
   const detail::Cover cover({&polygon, 1});
-  std::size_t count = 0;
-  double squares = 0;
+  const auto columns = static_cast<std::size_t>(cells.columns), rows = static_cast<std::size_t>(cells.rows);
+  HeightCells built{columns, rows, options.grid, std::vector(columns * rows, HeightCells::outside)};
+  std::vector<double> scanned(built.heights);
   for (std::int64_t j = 0; j < cells.rows; ++j)
     detail::each_cell(cells, j, Where::inside, cover, top, mesh, [&](const detail::Cell& cell) {
-      if (!cell.scanned) return;
-      const double difference = cell.built.value_or(base) - *cell.scanned;
+      const auto at = static_cast<std::size_t>(j) * columns + static_cast<std::size_t>(cell.column);
+      built.heights[at] = cell.built.value_or(base);
+      if (cell.scanned) scanned[at] = *cell.scanned;
+    });
+  // Without what the scan does not cover, the rest may be all beside walls: then that is compared.
+  auto kept = away_from_walls(built, options.inset);
+  const auto compared = [&](std::size_t c) { return kept[c] && !std::isnan(scanned[c]); };
+  std::size_t count = 0;
+  double squares = 0;
+  const auto sum = [&] {
+    for (std::size_t c = 0; c < scanned.size(); ++c) {
+      if (!compared(c)) continue;
+      const double difference = built.heights[c] - scanned[c];
       squares += difference * difference;
       ++count;
-    });
+    }
+  };
+  sum();
+  if (count == 0) {
+    kept.assign(kept.size(), true);
+    sum();
+  }
   return count > 0 ? squares / static_cast<double>(count) : unknown;
 }
 

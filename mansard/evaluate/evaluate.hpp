@@ -124,9 +124,10 @@ void set_quantiles(const Differences& differences, Scores& scores);
 /// means, good enough for a headline; set_quantiles has the exact ones.
 [[nodiscard]] auto combined(std::span<const Scores> scores) -> Scores;
 
-/// Mean squared vertical error, m², of one solid over its own polygon, for choosing between candidates; cells where the
-/// mesh has no surface do not count. `grid` in metres.
+/// Mean squared vertical error, m², of one solid over its own polygon: its roof, without what is nearer than
+/// Options::inset to a wall of it or to the polygon's boundary (away_from_walls). Cells where the mesh has no surface
+/// do not count; without any it is infinite.
 [[nodiscard]] auto error_over(const model::Solid& solid, const geometry::Polygon& polygon, const rays::Scene& mesh,
-                              double grid) -> double;
+                              const Options& options) -> double;
 
 }  // namespace mansard::evaluate

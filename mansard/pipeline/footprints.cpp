@@ -207,7 +207,7 @@ void finish(model::Building& building, report::BuildingReport& report, const mod
   for (auto& reason : report.reasons)
     if (reason.subject.empty()) reason.subject = report.id;
   detail::add_attributes(building, report,
-                         report::level_measures(building, frame, options.write.levels, nullptr, options.evaluate.grid),
+                         report::level_measures(building, frame, options.write.levels, nullptr, options.evaluate),
                          options, static_cast<double>(frame.origin[2]));
 }
 

@@ -409,6 +409,7 @@ auto codes() -> std::vector<base::Code> {
   add(solver::codes());
   add(ingest::codes());
   add(block::codes());
+  add(confidence::codes());
   add(vegetation::codes());
   add(derive::codes());
   add(fracture::codes());

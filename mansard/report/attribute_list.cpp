@@ -16,8 +16,17 @@ auto attributes() -> std::vector<formats::Attribute> {
       "part of its neighbours' models; refused: the footprint cannot be used, or the scan does not cover it.");
   add("ms_success", building, "boolean", "", "Whether the building has a model.");
   add("ms_quality", building, "string", "",
-      "good: the outcome is full, every level of detail is valid, the scan covers half of the footprint or more, and "
-      "something shows the ground; check: one of these is not so; none: it has no model.");
+      "How likely the model is right: high (ms_confidence of 0.9 or more, and no check failed), medium (0.5 or more), "
+      "low; unknown: it was made without a scan, or edited since; none: it has no model.");
+  add("ms_checks", building, "string", "",
+      "no check failed, or those that did: outcome (some part is simpler than its profiles), validity (of a level of "
+      "detail), coverage (the scan covers less than half of the footprint), ground (nothing shows it).");
+  add("ms_confidence", building, "number", "",
+      "Probability that the model is right, 0 to 1: a mean squared vertical error of 0.5 m² or less, 0.3 m inside the "
+      "outline, against what stands there; only with a scan.");
+  add("ms_error", building, "number", "m",
+      "Root mean square vertical error to expect against what stands there, 0.3 m inside the outline; only with a "
+      "scan.");
   add("ms_reasons", building, "string", "",
       "Why the building has no model, a simpler one, or one that is less sure, the main reason first; absent where "
       "there "
@@ -77,7 +86,8 @@ auto attributes() -> std::vector<formats::Attribute> {
     add(level_names(lod).volume, building, "number", "m³",
         "Volume of LoD " + level + "; absent where it has no valid solid.");
     add(level_names(lod).rmse, building, "number", "m",
-        "Root mean square of the vertical distance of LoD " + level + " to the mesh; absent without mesh coverage.");
+        "Root mean square of the vertical distance of LoD " + level +
+            " to the mesh, measured as ms_rmse_lod22; absent without mesh coverage.");
   }
   for (const auto& names : level_names()) {
     const std::string level(formats::name_of(names.lod));
@@ -88,7 +98,8 @@ auto attributes() -> std::vector<formats::Attribute> {
   add("ms_volume_lod22", both, "number", "m³",
       "Volume of the LoD 2.2 solid; of a building over its parts, where it has some.");
   add("ms_rmse_lod22", both, "number", "m",
-      "Root mean square of the vertical distance to the mesh; absent without mesh coverage.");
+      "Root mean square of the vertical distance to the mesh over the roof, without what is within evaluate.inset of a "
+      "wall; absent without mesh coverage.");
   add("ms_area_left_out", building, "number", "m²",
       "Area of the footprint that is high enough for a building and has no model; absent up to 1 m².");
   all.push_back(

@@ -23,6 +23,7 @@ constexpr std::array<std::string_view, 14> of_model{
     "ms_area_roof_sloped", "ms_area_wall",  "ms_area_party_wall", "ms_fallback"};
 /// Those of a building that building_attributes() makes, beside those of its levels of detail.
 constexpr std::array of_building{"ms_outcome",     "ms_success",         "ms_quality",
+                                 "ms_checks",      "ms_confidence",      "ms_error",
                                  "ms_h_ground",    "ms_h_roof_min",      "ms_h_roof_50p",
                                  "ms_h_roof_70p",  "ms_h_roof_max",      "ms_h_eave",
                                  "ms_h_ridge",     "ms_roof_type",       "ms_roof_planes",
@@ -163,8 +164,7 @@ auto part_attributes(const model::Part& part, const std::string& fallback, const
                      const Sampling& sampling) -> model::Attributes {
   std::optional<double> mse;
   if (mesh != nullptr) {
-    const double error =
-        evaluate::error_over(part.model.solid, model::polygon_of(part.plan), *mesh, sampling.error_grid);
+    const double error = evaluate::error_over(part.model.solid, model::polygon_of(part.plan), *mesh, sampling.error);
     if (std::isfinite(error)) mse = error;
   }
   const auto roof = roof_heights(part.model, part.plan, sampling.roof_grid);
@@ -198,12 +198,14 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
   }
   model::Attributes levels, now;
   if (!building.parts.empty())
-    levels = level_measures(plain, {{0, 0, static_cast<std::int64_t>(z0)}, {}}, {}, nullptr, 1);
+    levels = level_measures(plain, {{0, 0, static_cast<std::int64_t>(z0)}, {}}, {}, nullptr, {});
   now.emplace_back("ms_outcome", std::string(to_string(outcome)));
   now.emplace_back("ms_success", !building.parts.empty());
   const auto source = std::ranges::find(building.attributes, "ms_ground_source", &model::Attributes::value_type::first);
   const auto* ground = source == building.attributes.end() ? nullptr : std::get_if<std::string>(&source->second);
-  now.emplace_back("ms_quality", quality_of(to_string(outcome), levels, ground == nullptr ? "" : *ground));
+  // What the scan said was said of another model.
+  add_quality(to_string(outcome), failed_checks(to_string(outcome), levels, ground == nullptr ? "" : *ground),
+              std::nullopt, now);
   constexpr double storey = 3;  // m; the default of roof.level_height
   for (auto& measure : building_measures(plain, z0, storey)) now.push_back(std::move(measure));
   for (auto& measure : levels) now.push_back(std::move(measure));

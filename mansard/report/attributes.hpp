@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mansard/evaluate/evaluate.hpp"
 #include "mansard/formats/attributes.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/model/city.hpp"
@@ -38,10 +39,10 @@ namespace mansard::report {
                                     const std::vector<double>& roof, const std::optional<double>& mse,
                                     const std::string& fallback, double z0) -> model::Attributes;
 
-/// The grids on which a model is measured.
+/// How a model is measured.
 struct Sampling {
-  double roof_grid;   ///< m; of the roof's heights
-  double error_grid;  ///< m; of the vertical error
+  double roof_grid = 0.5;   ///< m; of the roof's heights
+  evaluate::Options error;  ///< of the vertical error
 };
 /// The attributes of a part that speak of its model (heights, roof type, volume, areas, error, fallback), measured
 /// anew; all others stay as `part` has them. `mesh` may be null: no error then. `fallback`: the code of the reason why

@@ -221,7 +221,7 @@ auto level_names(formats::Lod lod) -> const LevelNames& {
 }
 
 auto level_measures(const model::Building& building, const model::Frame& frame, const solid::LevelOptions& options,
-                    const rays::Scene* mesh, double grid) -> model::Attributes {
+                    const rays::Scene* mesh, const evaluate::Options& error_options) -> model::Attributes {
   model::Attributes out;
   const auto all = formats::levels_of(building, frame, options);
   if (all.empty()) return out;
@@ -247,7 +247,8 @@ auto level_measures(const model::Building& building, const model::Frame& frame, 
         if (model.classes[f] != model::FaceClass::ground) continue;
         const auto ground = geometry::oriented(geometry::polygon_of(
             model.solid.faces[f].loops, [&](std::uint32_t v) { return xy(model.solid.vertices[v]); }));
-        const double error = evaluate::error_over(model.solid, ground, *mesh, grid), area = geometry::area(ground);
+        const double error = evaluate::error_over(model.solid, ground, *mesh, error_options),
+                     area = geometry::area(ground);
         if (!std::isfinite(error)) continue;
         squared += error * area;
         seen += area;
@@ -340,23 +341,49 @@ void set_reasons(model::Attributes& attributes, const std::vector<base::Diagnost
   if (reasons.empty()) return;
   std::string words;
   for (const auto& reason : reasons) words += (words.empty() ? "" : "; ") + reason.message;
-  auto at = std::ranges::find(attributes, "ms_quality", &model::Attributes::value_type::first);
+  auto at = attributes.end();
+  for (const char* last : {"ms_error", "ms_checks", "ms_quality"}) {
+    at = std::ranges::find(attributes, last, &model::Attributes::value_type::first);
+    if (at != attributes.end()) break;
+  }
   if (at != attributes.end()) ++at;
   attributes.emplace(at, "ms_reasons", std::move(words));
 }
 
-auto quality_of(std::string_view outcome, const model::Attributes& levels, std::string_view ground_source)
-    -> std::string {
-  if (outcome == "refused" || outcome == "covered") return "none";
+auto failed_checks(std::string_view outcome, const model::Attributes& levels, std::string_view ground_source)
+    -> std::vector<std::string_view> {
   constexpr double half = 0.5;
-  bool good = outcome == "full" && ground_source != "assumed" && ground_source != "lowest";
+  bool valid = true, covered = true;
   for (const auto& [name, value] : levels) {
     const bool validity = std::ranges::any_of(level_names(), [&](const auto& names) { return name == names.val3dity; });
-    if (validity) good = good && value == model::Value(std::string("[]"));
+    if (validity) valid = valid && value == model::Value(std::string("[]"));
     if (const auto* share = std::get_if<double>(&value); share != nullptr && name == "ms_nodata_share")
-      good = good && *share <= half;
+      covered = covered && *share <= half;
   }
-  return good ? "good" : "check";
+  std::vector<std::string_view> out;
+  if (outcome != "full") out.emplace_back("outcome");
+  if (!valid) out.emplace_back("validity");
+  if (!covered) out.emplace_back("coverage");
+  if (ground_source == "assumed" || ground_source == "lowest") out.emplace_back("ground");
+  return out;
+}
+
+void add_quality(std::string_view outcome, const std::vector<std::string_view>& failed,
+                 const std::optional<confidence::Confidence>& confidence, model::Attributes& attributes) {
+  if (outcome == "refused" || outcome == "covered") {
+    attributes.emplace_back("ms_quality", "none");
+    return;
+  }
+  std::string_view quality = confidence ? confidence::class_of(confidence->right) : "unknown";
+  if (quality == "high" && !failed.empty()) quality = "medium";
+  attributes.emplace_back("ms_quality", std::string(quality));
+  std::string words = failed.empty() ? "no check failed" : "failed: ";
+  for (const auto check : failed) words += (check == failed.front() ? "" : ", ") + std::string(check);
+  attributes.emplace_back("ms_checks", words);
+  if (!confidence) return;
+  constexpr double hundredths = 100;
+  attributes.emplace_back("ms_confidence", std::round(confidence->right * hundredths) / hundredths);
+  attributes.emplace_back("ms_error", std::round(confidence->error * hundredths) / hundredths);
 }
 
 }  // namespace mansard::report

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "mansard/confidence/confidence.hpp"
+#include "mansard/evaluate/evaluate.hpp"
 #include "mansard/formats/levels.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/model/city.hpp"
@@ -27,10 +29,10 @@ struct LevelNames {
 [[nodiscard]] auto level_names(formats::Lod lod) -> const LevelNames&;
 
 /// Volume and surface of every level of detail, whether it is valid, and with a mesh its root mean square vertical
-/// error on a grid of `grid` metres. LoD 2.2 has volume and error elsewhere.
+/// error as evaluate::error_over. LoD 2.2 has volume and error elsewhere.
 [[nodiscard]] auto level_measures(const model::Building& building, const model::Frame& frame,
-                                  const solid::LevelOptions& options, const rays::Scene* mesh, double grid)
-    -> model::Attributes;
+                                  const solid::LevelOptions& options, const rays::Scene* mesh,
+                                  const evaluate::Options& error) -> model::Attributes;
 
 /// How much of polygons a mesh covers, on a grid that is coarser for polygons of more than 250,000 cells.
 struct Coverage {
@@ -40,11 +42,18 @@ struct Coverage {
 [[nodiscard]] auto coverage(const rays::Scene& mesh, std::span<const geometry::Polygon> polygons, double grid)
     -> Coverage;
 
-/// Sets ms_reasons, after ms_quality, to what the reasons say, the first one first; none where there is none.
+/// Sets ms_reasons, after the attributes of add_quality, to what the reasons say, the first one first; none where there
+/// is none.
 void set_reasons(model::Attributes& attributes, const std::vector<base::Diagnostic>& reasons);
 
-/// "good", "check" or "none": see the attribute ms_quality. `levels` has the attributes of level_measures.
-[[nodiscard]] auto quality_of(std::string_view outcome, const model::Attributes& levels,
-                              std::string_view ground_source = {}) -> std::string;
+/// The checks that a building failed, of "outcome" (some part is simpler than its profiles), "validity" (a level of
+/// detail is not valid), "coverage" (the scan covers less than half of the footprint) and "ground" (nothing shows it).
+/// `levels` has the attributes of level_measures.
+[[nodiscard]] auto failed_checks(std::string_view outcome, const model::Attributes& levels,
+                                 std::string_view ground_source = {}) -> std::vector<std::string_view>;
+
+/// ms_quality, ms_checks and, where the model was measured with a scan, ms_confidence and ms_error.
+void add_quality(std::string_view outcome, const std::vector<std::string_view>& failed,
+                 const std::optional<confidence::Confidence>& confidence, model::Attributes& attributes);
 
 }  // namespace mansard::report

@@ -132,6 +132,19 @@ auto json_of(const BuildingReport& b) -> Json {
                        {"roof_flat", b.areas.roof_flat}, {"roof_sloped", b.areas.roof_sloped},
                        {"soffit", b.areas.soffit},       {"ground", b.areas.ground}};
   }
+  if (b.evidence) {
+    Json measures = Json::object();
+    for (std::size_t m = 0; m < confidence::measures; ++m)
+      measures[std::string(confidence::name_of(static_cast<confidence::Measure>(m)))] =
+          std::round(b.evidence->of[m] * 1e4) / 1e4;
+    out["evidence"] = std::move(measures);
+  }
+  if (b.confidence) {
+    const auto digits = [](double value, double per_unit) { return std::round(value * per_unit) / per_unit; };
+    out["confidence"] = {{"right", digits(b.confidence->right, 1e3)},
+                         {"error_m", digits(b.confidence->error, 1e3)},
+                         {"class", confidence::class_of(b.confidence->right)}};
+  }
   if (b.left_out > 0) out["left_out_m2"] = b.left_out;
   if (!b.roof.empty()) out["roof"] = b.roof;
   if (!b.height_from.empty()) out["height_from"] = b.height_from;

@@ -15,6 +15,7 @@
 #include "mansard/base/outputs.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/base/watch.hpp"
+#include "mansard/confidence/confidence.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/fracture/fracture.hpp"
 #include "mansard/label/label.hpp"
@@ -92,7 +93,9 @@ struct BuildingReport {
   std::string ground_source;                      ///< what says that ground: block::GroundSource; empty without a block
   double volume = 0;                              ///< m³
   label::Areas areas;
-  std::optional<double> rmse;     ///< m, vertical, over its parts; none without mesh coverage
+  std::optional<double> rmse;                        ///< m, vertical, over its parts; none without mesh coverage
+  std::optional<confidence::Evidence> evidence;      ///< of a model that was made with a scan
+  std::optional<confidence::Confidence> confidence;  ///< by that
   double left_out = 0;            ///< m² of the footprint that are high enough for a building and have no model
   std::string roof, height_from;  ///< the shape made and where its height comes from; only of models without a mesh
 };

@@ -166,26 +166,37 @@ TEST(Compare, is_the_same_at_one_and_two_threads) {
   EXPECT_EQ(one.scores.p95_absolute, two.scores.p95_absolute);
 }
 
+/// Every cell, also beside walls.
+constexpr Options whole{0.25, 0, 0};
+
 TEST(Error_over, is_the_mean_square_over_the_polygon) {
   const auto house = gable({0, 0}, {10, 8}, 0, 6, 9);
   const Scene scan(mesh_of({house}));
   const auto polygon = rectangle({0, 0}, {10, 8});
-  EXPECT_NEAR(error_over(house, polygon, scan, 0.25), 0, 1e-10);
-  EXPECT_NEAR(error_over(lifted(house, 0.5), polygon, scan, 0.25), 0.25, 1e-4);
+  EXPECT_NEAR(error_over(house, polygon, scan, whole), 0, 1e-10);
+  EXPECT_NEAR(error_over(lifted(house, 0.5), polygon, scan, whole), 0.25, 1e-4);
   // A flat top at mid-height: heights spread evenly over ± 1.5 m.
-  EXPECT_NEAR(error_over(box({0, 0}, {10, 8}, 0, 7.5), polygon, scan, 0.05), 1.5 * 1.5 / 3, 1e-3);
+  EXPECT_NEAR(error_over(box({0, 0}, {10, 8}, 0, 7.5), polygon, scan, {0.05, 0, 0}), 1.5 * 1.5 / 3, 1e-3);
 }
 
 TEST(Error_over, counts_only_cells_that_the_scan_shows) {
   const Scene scan(mesh_of({box({0, 0}, {5, 8}, 0, 6)}));
-  EXPECT_NEAR(error_over(box({0, 0}, {10, 8}, 0, 8), rectangle({0, 0}, {10, 8}), scan, 0.25), 4, 1e-4);
-  EXPECT_EQ(error_over(box({20, 0}, {30, 8}, 0, 8), rectangle({20, 0}, {30, 8}), scan, 0.25),
+  EXPECT_NEAR(error_over(box({0, 0}, {10, 8}, 0, 8), rectangle({0, 0}, {10, 8}), scan, whole), 4, 1e-4);
+  EXPECT_EQ(error_over(box({20, 0}, {30, 8}, 0, 8), rectangle({20, 0}, {30, 8}), scan, whole),
             std::numeric_limits<double>::infinity());
 }
 
 TEST(Error_over, takes_the_base_where_the_solid_leaves_the_polygon_bare) {
   const Scene scan(plain(5));
-  EXPECT_NEAR(error_over(box({0, 0}, {5, 8}, 2, 5), rectangle({0, 0}, {10, 8}), scan, 0.25), 9 / 2.0, 1e-4);
+  EXPECT_NEAR(error_over(box({0, 0}, {5, 8}, 2, 5), rectangle({0, 0}, {10, 8}), scan, whole), 9 / 2.0, 1e-4);
+}
+
+TEST(Error_over, leaves_out_what_is_beside_walls) {
+  const auto tower = box({0, 0}, {10, 8}, 0, 30);
+  // The scan shows it 0.3 m farther east: at one wall its height is not seen, at the other more than it.
+  const Scene scan(mesh_of({box({-20, -20}, {30, 30}, -1, 0), box({0.3, 0}, {10.3, 8}, 0, 30)}));
+  EXPECT_GT(error_over(tower, rectangle({0, 0}, {10, 8}), scan, whole), 10);
+  EXPECT_NEAR(error_over(tower, rectangle({0, 0}, {10, 8}), scan, {}), 0, 1e-9);
 }
 
 TEST(Options, are_all_listed) {

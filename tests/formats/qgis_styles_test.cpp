@@ -211,6 +211,19 @@ TEST_F(QgisStyles, know_every_class_and_every_outcome_that_is_written) {
   }
 }
 
+TEST_F(QgisStyles, show_how_likely_buildings_are_right_where_that_is_known) {
+  model::City city = street();
+  for (auto& building : city.buildings) building.attributes.emplace_back("ms_outcome", std::string("full"));
+  city.buildings[0].attributes.emplace_back("ms_quality", std::string("high"));
+  city.buildings[1].attributes.emplace_back("ms_quality", std::string("low"));
+  write(city);
+  const auto qml = xml(style("gis_footprints")->GetFieldAsString("styleQML"));
+  EXPECT_EQ(get(all(qml, "renderer-v2").at(0), "attr"), "ms_quality");
+  std::set<std::string> known;
+  for (const auto* category : all(qml, "category")) known.insert(get(category, "value"));
+  EXPECT_THAT(known, testing::IsSupersetOf({"high", "medium", "low", "none"}));
+}
+
 TEST_F(QgisStyles, have_the_colours_of_the_materials) {
   write(street());
   const auto colours = obj(street(), "street.mtl")->mtl;

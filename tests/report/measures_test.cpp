@@ -97,7 +97,7 @@ TEST(BuildingMeasures, of_a_building_without_a_model_are_its_footprint) {
 
 TEST(LevelMeasures, have_volume_surface_and_validity_of_every_level) {
   const auto city = street();
-  const auto all = report::level_measures(city.buildings[0], city.frame, {}, nullptr, 0.25);
+  const auto all = report::level_measures(city.buildings[0], city.frame, {}, nullptr, {});
   EXPECT_THAT(*value<double>(all, "ms_volume_lod12"), DoubleNear(10 * 8 * 8, 1e-6));
   EXPECT_EQ(value<double>(all, "ms_volume_lod13"), value<double>(all, "ms_volume_lod12"));
   EXPECT_THAT(*value<double>(all, "ms_volume_lod20"), DoubleNear(10 * 8 * 8, 1e-6));
@@ -115,9 +115,9 @@ TEST(LevelMeasures, say_which_codes_are_against_a_solid) {
   broken.solid.faces.pop_back();
   broken.classes.pop_back();
   building.solids = {{{0}, broken}};
-  const auto all = report::level_measures(building, city.frame, {}, nullptr, 0.25);
+  const auto all = report::level_measures(building, city.frame, {}, nullptr, {});
   EXPECT_EQ(value<std::string>(all, "ms_val3dity_lod22"), "[302]");
-  EXPECT_EQ(report::quality_of("full", all), "check");
+  EXPECT_EQ(report::failed_checks("full", all), std::vector<std::string_view>{"validity"});
 }
 
 TEST(LevelMeasures, have_the_error_of_the_flat_roof_against_the_mesh) {
@@ -128,7 +128,7 @@ TEST(LevelMeasures, have_the_error_of_the_flat_roof_against_the_mesh) {
                    {11.0625, 6.125, 11.25}, {1.0625, 10.125, 7.25}, {11.0625, 10.125, 7.25}};
   mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}};
   const rays::Scene scene(mesh);
-  const auto all = report::level_measures(city.buildings[0], city.frame, {}, &scene, 0.1);
+  const auto all = report::level_measures(city.buildings[0], city.frame, {}, &scene, {0.1, 0, 0});
   EXPECT_THAT(*value<double>(all, "ms_rmse_lod12"), DoubleNear(2 / std::sqrt(3.0), 0.02));
 }
 
@@ -146,12 +146,52 @@ TEST(Coverage, is_the_share_without_a_surface_and_the_largest_circle_in_it) {
   EXPECT_EQ(all.radius, 0);
 }
 
-TEST(Quality, is_good_only_where_nothing_speaks_against_it) {
+using Checks = std::vector<std::string_view>;
+
+TEST(Checks, name_those_that_failed) {
   const model::Attributes valid{{"ms_val3dity_lod22", std::string("[]")}, {"ms_nodata_share", 0.1}};
-  EXPECT_EQ(report::quality_of("full", valid), "good");
-  EXPECT_EQ(report::quality_of("fallback", valid), "check");
-  EXPECT_EQ(report::quality_of("refused", valid), "none");
-  EXPECT_EQ(report::quality_of("full", {{"ms_nodata_share", 0.6}}), "check");
+  EXPECT_EQ(report::failed_checks("full", valid), Checks{});
+  EXPECT_EQ(report::failed_checks("fallback", valid), Checks{"outcome"});
+  EXPECT_EQ(report::failed_checks("full", {{"ms_nodata_share", 0.6}}), Checks{"coverage"});
+  EXPECT_EQ(report::failed_checks("full", valid, "terrain"), Checks{});
+  EXPECT_EQ(report::failed_checks("fallback", valid, "assumed"), (Checks{"outcome", "ground"}));
+}
+
+auto quality(std::string_view outcome, const Checks& failed, std::optional<double> right) -> model::Attributes {
+  model::Attributes out;
+  std::optional<confidence::Confidence> confidence;
+  if (right) confidence.emplace().right = *right;
+  report::add_quality(outcome, failed, confidence, out);
+  return out;
+}
+
+TEST(Quality, is_the_class_of_the_confidence) {
+  EXPECT_EQ(value<std::string>(quality("full", {}, 0.97), "ms_quality"), "high");
+  EXPECT_EQ(value<std::string>(quality("full", {}, 0.97), "ms_checks"), "no check failed");
+  EXPECT_EQ(value<double>(quality("full", {}, 0.973), "ms_confidence"), 0.97);
+  EXPECT_EQ(value<std::string>(quality("full", {}, 0.6), "ms_quality"), "medium");
+  EXPECT_EQ(value<std::string>(quality("full", {}, 0.1), "ms_quality"), "low");
+}
+
+TEST(Quality, is_not_high_where_a_check_failed) {
+  const auto found = quality("fallback", {"outcome", "ground"}, 0.97);
+  EXPECT_EQ(value<std::string>(found, "ms_quality"), "medium");
+  EXPECT_EQ(value<std::string>(found, "ms_checks"), "failed: outcome, ground");
+}
+
+TEST(Quality, says_nothing_without_a_scan_or_a_model) {
+  EXPECT_EQ(value<std::string>(quality("full", {}, {}), "ms_quality"), "unknown");
+  EXPECT_FALSE(value<double>(quality("full", {}, {}), "ms_confidence"));
+  EXPECT_EQ(value<std::string>(quality("refused", {"outcome"}, {}), "ms_quality"), "none");
+}
+
+TEST(Quality, has_the_reasons_behind_it) {
+  auto found = quality("full", {}, 0.3);
+  found.emplace_back("ms_h_eave", 3.0);
+  report::set_reasons(found, {base::warning("a", "first"), base::warning("b", "second")});
+  EXPECT_EQ(value<std::string>(found, "ms_reasons"), "first; second");
+  EXPECT_EQ(found.back().first, "ms_h_eave");
+  EXPECT_EQ(found[found.size() - 2].first, "ms_reasons");
 }
 
 }  // namespace

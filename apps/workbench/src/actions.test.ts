@@ -59,6 +59,7 @@ describe("a large run", () => {
     outcomes: ["full", "full", "full"],
     volumes: [1, 2, 3],
     errors: [null, null, null],
+    confidences: [null, null, null],
     edited: [false, false, false],
     shapes: [0, 1000, 20000].map((x) => [[0, 600, x, 0, x + 800, 0, x + 800, 800]]),
     reasons: {},

@@ -11,6 +11,7 @@ const list = (...places: [number, number][]): BuildingList => ({
   outcomes: places.map(() => "full"),
   volumes: places.map(() => 600),
   errors: places.map((_, i) => (i ? 0.25 : null)),
+  confidences: places.map((_, i) => (i ? 0.97 : null)),
   edited: places.map(() => false),
   shapes: places.map(([x, y]) => square(x, y)),
   reasons: { b1: [{ severity: "warning", code: "c", message: "too small", subject: "b1" }] },
@@ -19,8 +20,8 @@ const list = (...places: [number, number][]): BuildingList => ({
 
 test("a list becomes rows and tiles", () => {
   const large = largeOf(list([0, 0], [190, 0], [-20, 0], [500, 500]));
-  expect(large.rows[0]).toMatchObject({ id: "b0", rmse: null, parts: 1, volume: 600, reasons: [] });
-  expect(large.rows[1]).toMatchObject({ rmse: 0.5, reasons: ["Too small"] });
+  expect(large.rows[0]).toMatchObject({ id: "b0", rmse: null, confidence: null, parts: 1, volume: 600, reasons: [] });
+  expect(large.rows[1]).toMatchObject({ rmse: 0.5, confidence: 0.97, reasons: ["Too small"] });
   expect(large.tileOf).toEqual(["0_0", "0_0", "-1_0", "2_2"]); // by the centres: 195 m is in the first tile
   expect(large.low).toEqual([-20, 0, 0]);
   expect(large.high).toEqual([510, 510, 6]);

@@ -81,6 +81,7 @@ export function largeOf(list: BuildingList): Large {
     parts: shapes[i]!.length,
     rmse: list.errors[i] === null ? null : Math.sqrt(list.errors[i]!),
     volume: list.volumes[i]!,
+    confidence: list.edited[i]! ? null : (list.confidences[i] ?? null),
     edited: list.edited[i]!,
   }));
   return {

@@ -54,6 +54,13 @@ constexpr std::array outcome{
     Case{"refused", "The footprint cannot be used", {thin(red, 120), red, 0.5}},
     Case{nullptr, "Not told", {none, ink, 0.3}},
 };
+constexpr std::array quality{
+    Case{"high", "Probably right, 90 % and more", {thin(green, 70), green, 0.3}},
+    Case{"medium", "To look at: 50 to 90 %, or a check failed", {thin(amber, 120), amber, 0.4}},
+    Case{"low", "Probably wrong", {thin(red, 120), red, 0.5}},
+    Case{"none", "No model", {thin(pale, 120), pale, 0.3}},
+    Case{nullptr, "Not measured", {none, ink, 0.3}},
+};
 constexpr std::array gis{Case{nullptr, "Footprint as it was read", {none, ink, 0.3}}};
 constexpr std::array plans{Case{nullptr, "Plan of a part", {none, {90, 48, 38}, 0.4}}};
 constexpr std::array party{
@@ -98,6 +105,7 @@ constexpr std::array severity{
 /// Of two with one name, the first whose field the layer has. "segment_…" is what layers of a segmentation are called
 /// beside a city's.
 constexpr std::array styles{
+    LayerStyle{"gis_footprints", "ms_quality", "Buildings by how likely they are right", quality},
     LayerStyle{"gis_footprints", "ms_outcome", "Buildings by outcome", outcome},
     LayerStyle{"gis_footprints", nullptr, "Outlines of the footprints", gis},
     LayerStyle{"footprints", "part_id", "Outlines of the parts", plans},

@@ -98,6 +98,7 @@ auto attributes_of(const PartResult& part, const report::BlockReport& block, dou
 struct Account {
   double squared = 0;  // Σ mse × area, for the building's RMSE
   double area = 0;
+  double simpler = 0;  // parts
 };
 void take(PartResult part, const report::BlockReport& block, double z0, model::Building& building,
           report::BuildingReport& report, Account& account) {
@@ -113,6 +114,7 @@ void take(PartResult part, const report::BlockReport& block, double z0, model::B
     account.squared += rmse * rmse * areas.ground;
     account.area += areas.ground;
   }
+  account.simpler += part.full ? 0 : 1;
   if (!part.full) report.outcome = report::Outcome::fallback;
   for (auto reason : part.reasons) {
     if (reason.subject.empty()) reason.subject = building.id;
@@ -132,7 +134,8 @@ void add_attributes(model::Building& building, const report::BuildingReport& rep
   auto own = report::building_measures(building, z0, options.roof.level_height);
   attributes.emplace_back("ms_outcome", outcome);
   attributes.emplace_back("ms_success", report.parts > 0);
-  attributes.emplace_back("ms_quality", report::quality_of(outcome, measures, report.ground_source));
+  report::add_quality(outcome, report::failed_checks(outcome, measures, report.ground_source), report.confidence,
+                      attributes);
   report::set_reasons(attributes, report.reasons);
   if (!options.survey_source.empty()) attributes.emplace_back("ms_source", options.survey_source);
   if (!options.survey_date.empty()) attributes.emplace_back("ms_source_date", options.survey_date);
@@ -163,6 +166,38 @@ auto doubt_of(block::GroundSource source) -> std::optional<base::Diagnostic> {
                          "Heights above ground and volumes are not measured. Give a terrain model (--dtm), "
                          "--ground-attribute or --ground-height");
   return std::nullopt;
+}
+
+/// m; how much higher a model is than the attributes of its footprint say; 0 where they say nothing. Where they say
+/// storeys, heights that these allow are right: of 2.4 m each, the least that is lived in, or of 4 m with a roof of 6.
+auto above_stated(const model::Building& building, const report::BuildingReport& report, const Options& options)
+    -> double {
+  constexpr double lowest_storey = 2.4, highest_storey = 4, highest_roof = 6;
+  const auto form = roof::form_of(building.attributes, options.roof).form;
+  const double made = report.roof_max - report.ground;
+  switch (form.source) {
+    case roof::Source::height: return made - form.height;
+    case roof::Source::levels: {
+      const double storeys = form.height / options.roof.level_height;
+      return made - std::clamp(made, storeys * lowest_storey, storeys * highest_storey + highest_roof);
+    }
+    case roof::Source::assumed: break;
+  }
+  return 0;
+}
+
+/// What speaks most against a model before what else there is to say of it. What the scan does not cover is said once.
+void put_first(std::vector<base::Diagnostic> doubts, report::BuildingReport& report) {
+  if (report.outcome == report::Outcome::refused || report.outcome == report::Outcome::covered) return;
+  const auto partly = std::ranges::find(report.reasons, "pipeline-partly-seen", &base::Diagnostic::code);
+  const auto unseen = std::ranges::find(doubts, "confidence-unseen", &base::Diagnostic::code);
+  if (partly != report.reasons.end() && unseen != doubts.end()) {
+    *unseen = std::move(*partly);
+    report.reasons.erase(partly);
+  }
+  for (auto& doubt : doubts) doubt.subject = report.id;
+  report.reasons.insert(report.reasons.begin(), std::make_move_iterator(doubts.begin()),
+                        std::make_move_iterator(doubts.end()));
 }
 
 /// A feature before anything is made of it.
@@ -243,6 +278,16 @@ auto finish_block(const model::Scene& scene, BlockResult& result, const Options&
     if (auto doubt = doubt_of(result.grounds[i].source); doubt && report.parts > 0) {
       doubt->subject = report.id;
       report.reasons.push_back(*std::move(doubt));
+    }
+    if (const auto seen = std::ranges::find(result.evidence, out[i].first, [](const auto& one) { return one.first; });
+        seen != result.evidence.end()) {
+      using enum confidence::Measure;
+      auto& evidence = report.evidence.emplace(seen->second);
+      evidence[fallback] = accounts[i].simpler / static_cast<double>(std::max<std::size_t>(1, report.parts));
+      evidence[confidence::Measure::height_off] = above_stated(building, report, options);
+      evidence[doubtful] = doubt_of(result.grounds[i].source) ? 1 : 0;
+      report.confidence = confidence::confidence_of(evidence);
+      put_first(report.confidence->reasons, report);
     }
     if (accounts[i].area > 0) report.rmse = std::sqrt(accounts[i].squared / accounts[i].area);
     const auto known = std::ranges::find(result.measures, out[i].first, [](const auto& one) { return one.first; });

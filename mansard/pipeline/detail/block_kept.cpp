@@ -29,6 +29,7 @@ auto key_of(const block::Block& own, BlockKey shared) -> BlockKey {
   base::pack(own.name, footprints);
   base::pack(own.members, footprints);
   base::pack(own.outline, footprints);
+  base::pack(own.beside, footprints);
   base::pack(own.warnings, footprints);
   std::string mesh;
   base::pack(own.mesh, mesh);

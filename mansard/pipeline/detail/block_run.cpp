@@ -53,7 +53,7 @@ auto plain_prism(std::size_t feature, const Polygon& polygon, double ground, con
 void measure(PartResult& part, const rays::Scene& mesh, const Options& options) {
   const auto polygon = model::polygon_of(part.plan);
   part.roof = report::roof_heights(part.model, part.plan, options.roof_grid);
-  const double mse = evaluate::error_over(part.model.solid, polygon, mesh, options.evaluate.grid);
+  const double mse = evaluate::error_over(part.model.solid, polygon, mesh, options.evaluate);
   if (std::isfinite(mse)) part.mse = mse;
 }
 
@@ -247,6 +247,27 @@ auto partly_seen(const block::Member& member, double share, const Options& optio
                                                    "shows");
 }
 
+/// The evidence for the models of a block.
+auto evidence_for(const block::Block& block, const Shown& shown, const model::Accuracy& accuracy,
+                  const std::vector<std::pair<std::size_t, SolidsOf>>& solids)
+    -> std::vector<std::pair<std::size_t, confidence::Evidence>> {
+  std::vector<std::pair<std::size_t, confidence::Evidence>> out(solids.size());
+  base::parallel_for(solids.size(), [&](std::size_t s) {
+    const auto& [feature, made] = solids[s];
+    const block::Member* own = nullptr;
+    std::vector<geometry::Polygon> others = block.beside;
+    for (const auto& member : block.members) {
+      if (member.feature == feature) own = &member;
+      else others.insert(others.end(), member.polygons.begin(), member.polygons.end());
+    }
+    std::vector<const model::LabelledSolid*> models;
+    for (const auto& one : made.solids) models.push_back(&one.model);
+    out[s] = {feature, confidence::evidence_of(
+                           {own->polygons, others, models, shown.whole(), shown.mesh(), own->ground, accuracy})};
+  });
+  return out;
+}
+
 struct Measured {
   std::vector<std::pair<std::size_t, model::Attributes>> attributes;  ///< that take the mesh; by feature
   std::vector<std::pair<std::size_t, base::Diagnostic>> doubts;       ///< of features with a model
@@ -272,7 +293,7 @@ auto measured(const block::Block& block, const rays::Scene& mesh, const rays::Sc
     auto& [feature, attributes] = out.attributes[m];
     feature = member.feature;
     if (!building.solids.empty())
-      attributes = report::level_measures(building, {}, options.write.levels, &mesh, options.evaluate.grid);
+      attributes = report::level_measures(building, {}, options.write.levels, &mesh, options.evaluate);
     PartResult::EavesSeen eaves;
     for (const auto& part : parts)
       if (part.feature == member.feature) {
@@ -342,6 +363,8 @@ auto run_block(const block::Block& block, const Options& asked, const base::Run&
                        [&] { return with_overhangs(shown.block().mesh, options, run, parts, std::move(out.solids)); });
   auto found =
       stage("measure", tell, report, [&] { return measured(block, mesh, shown.mesh(), parts, out.solids, options); });
+  out.evidence =
+      stage("confidence", tell, report, [&] { return evidence_for(block, shown, report.accuracy, out.solids); });
   out.measures = std::move(found.attributes);
   out.doubts = std::move(found.doubts);
 

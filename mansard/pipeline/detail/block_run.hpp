@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "mansard/confidence/evidence.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/pipeline/solids.hpp"
 
@@ -74,6 +75,8 @@ struct BlockResult {
   std::vector<LeftOut> left_out;
   /// Attributes by feature that take the mesh to measure: the levels of detail, and what of the footprint it covers.
   std::vector<std::pair<std::size_t, model::Attributes>> measures;
+  /// What the scan says of the model of each feature that has one.
+  std::vector<std::pair<std::size_t, confidence::Evidence>> evidence;
   std::vector<base::Diagnostic> warnings;
   std::optional<report::SegmentedBlock> segmented;  ///< with Keep::segmentations
 };

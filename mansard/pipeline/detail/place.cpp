@@ -101,6 +101,7 @@ void place(BlockResult& result, const block::OwnFrame& frame) {
   for (auto& [feature, why] : result.doubts) way.number(feature);
   for (auto& one : result.left_out) way.number(one.feature);
   for (auto& [feature, attributes] : result.measures) way.number(feature);
+  for (auto& [feature, evidence] : result.evidence) way.number(feature);
   if (result.segmented) place(*result.segmented, frame);
 }
 

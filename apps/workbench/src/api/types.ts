@@ -72,6 +72,7 @@ export interface Building extends RaisedBuilding {
   reasons: Diagnostic[]; // of the run
   edited: boolean; // its plans differ from those of the run
   ground: number; // z
+  confidence: number | null; // probability that the model of the run is right; null where edited since, or without a scan
 }
 
 /** Every building of a run without plans and models, column by column: of large runs, whose models are asked for by tile. */
@@ -82,6 +83,7 @@ export interface BuildingList {
   outcomes: ("full" | "fallback" | "covered" | "refused")[];
   volumes: number[]; // m³
   errors: (number | null)[]; // mse, m²: of unedited buildings as the run measured it over their parts
+  confidences: (number | null)[]; // probability that the model is right
   edited: boolean[];
   shapes: number[][][]; // of each part: base, height of a prism in place of its model, x, y, x, y …, in centimetres
   reasons: Record<string, Diagnostic[]>; // by id, of those that have some

@@ -27,6 +27,7 @@ const building: Building = {
   reasons: [],
   edited: false,
   ground: 0,
+  confidence: 0.95,
 };
 
 beforeEach(() => {

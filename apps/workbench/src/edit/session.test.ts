@@ -60,6 +60,7 @@ const building = (id: string, revision: number, gutter: number): api.Building =>
   reasons: [],
   edited: false,
   ground: 0,
+  confidence: 0.95,
 });
 const none: api.History = { edits: [], done: 0 };
 const gone = () =>

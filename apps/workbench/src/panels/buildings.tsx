@@ -56,7 +56,12 @@ const columns: { column: Column; name: string; title: string; number?: boolean }
   { column: "id", name: "Building", title: "Id of the footprint" },
   { column: "block", name: "Block", title: "Block of buildings that touch" },
   { column: "outcome", name: "Outcome", title: "Result of the run: full, or a simpler model" },
-  { column: "parts", name: "Parts", title: "Number of solids", number: true },
+  {
+    column: "confidence",
+    name: "Right",
+    title: "Probability that the model is right, in percent; the least sure first",
+    number: true,
+  },
   { column: "rmse", name: "RMSE m", title: "Root mean squared vertical error over the footprint; ground without a model counts as missed", number: true },
   { column: "volume", name: "m³", title: "Volume", number: true },
   { column: "edited", name: "✎", title: "Edited by hand" },
@@ -144,7 +149,7 @@ export function BuildingsPanel() {
                   type="button"
                   class={"plain" + (number ? " number" : "")}
                   title={title}
-                  onClick={() => sortBy({ column, down: by ? !order.value.down : !!number })}
+                  onClick={() => sortBy({ column, down: by ? !order.value.down : !!number && column !== "confidence" })}
                 >
                   {name}
                   {by && <span aria-hidden="true">{order.value.down ? " ▾" : " ▴"}</span>}
@@ -197,7 +202,7 @@ function TableRow({ row, index, selected }: { row: Row; index: number; selected:
         {row.reasons.length > 0 && <span aria-label={row.reasons.join(" ")}> ⓘ</span>}
       </div>
       <div role="gridcell" class="number">
-        {row.parts}
+        {row.confidence === null ? "–" : `${Math.floor(100 * row.confidence)} %`}
       </div>
       <div role="gridcell" class="number">
         {fixed(row.rmse, 2)}

@@ -3,9 +3,9 @@ import { building } from "../view/fixtures";
 import { filtered, sorted, visibleRows, rowOf } from "./table";
 
 const rows = [
-  rowOf(building("b-10", { mse: 0.25, edited: true })),
-  rowOf(building("b-9", { mse: null, outcome: "fallback" })),
-  rowOf(building("b-2", { mse: 0.01, block: "block-7" })),
+  rowOf(building("b-10", { mse: 0.25, edited: true, confidence: null })),
+  rowOf(building("b-9", { mse: null, outcome: "fallback", confidence: 0.4 })),
+  rowOf(building("b-2", { mse: 0.01, block: "block-7", confidence: 0.98 })),
 ];
 const ids = (filter: string, column: Parameters<typeof sorted>[1]["column"], down = false) =>
   filtered(sorted(rows, { column, down }), filter).map((r) => r.id);
@@ -19,6 +19,10 @@ describe("the table of buildings", () => {
   it("puts missing values last in either order", () => {
     expect(ids("", "rmse")).toEqual(["b-2", "b-10", "b-9"]);
     expect(ids("", "rmse", true)).toEqual(["b-10", "b-2", "b-9"]);
+  });
+
+  it("sorts by how sure models are", () => {
+    expect(ids("", "confidence")).toEqual(["b-9", "b-2", "b-10"]);
   });
 
   it("sorts equal rows by id", () => {

@@ -3,7 +3,7 @@ import type { Building } from "../api/types";
 import { type Searched, hasValue, termOf } from "./attribute_text";
 import { reasonsOf } from "./reasons";
 
-export type Column = "id" | "block" | "outcome" | "parts" | "rmse" | "volume" | "edited";
+export type Column = "id" | "block" | "outcome" | "confidence" | "rmse" | "volume" | "edited";
 export interface Order {
   column: Column;
   down: boolean;
@@ -16,6 +16,7 @@ export interface Row {
   reasons: string[]; // why the model is simpler than asked for
   rmse: number | null; // m, over the footprint
   volume: number; // m³
+  confidence: number | null; // probability that the model is right
   edited: boolean;
 }
 
@@ -27,6 +28,7 @@ export const rowOf = (b: Building): Row => ({
   parts: b.parts.length,
   rmse: b.mse === null ? null : Math.sqrt(b.mse),
   volume: b.parts.reduce((sum, p) => sum + p.volume, 0),
+  confidence: b.edited ? null : b.confidence,
   edited: b.edited,
 });
 

@@ -68,6 +68,7 @@ export const building = (id: string, change: Partial<Building> = {}): Building =
   reasons: [],
   edited: false,
   ground: 0,
+  confidence: 0.95,
   ...change,
 });
 
