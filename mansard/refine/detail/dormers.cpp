@@ -134,9 +134,11 @@ class Shown {
 /// part the dormer.
 auto error_of(const std::vector<Sample>& samples, const Slope& slope, const Box* box, double blur) -> double {
   double n = 0, sv = 0, svv = 0, sd = 0, svd = 0, sdd = 0;
+  std::optional<Shown> shown;
+  if (box) shown.emplace(*box, slope, blur);
   for (const auto& s : samples) {
     double d = s.z - slope.at(s.v);
-    if (box) d -= Shown(*box, slope, blur)(s.u, s.v);
+    if (shown) d -= (*shown)(s.u, s.v);
     ++n, sv += s.v, svv += s.v * s.v, sd += d, svd += s.v * d, sdd += d * d;
   }
   const double determinant = n * svv - sv * sv;
