@@ -38,15 +38,15 @@ auto thinned(const std::vector<Knot>& knots) -> std::vector<Knot> {
   return kept;
 }
 
-/// In lowest terms; the denominator is positive.
-auto quotient(std::int64_t numerator, std::int64_t denominator) -> Rational {
+/// A fraction; the denominator is positive.
+auto in_lowest_terms(std::int64_t numerator, std::int64_t denominator) -> Rational {
   const auto common = std::gcd(numerator, denominator);
   return {static_cast<long>(numerator / common), static_cast<unsigned long>(denominator / common)};
 }
 
 }  // namespace
 
-auto in_metres(std::int64_t quanta) -> Rational { return quotient(quanta, quanta_per_metre); }
+auto in_metres(std::int64_t quanta) -> Rational { return in_lowest_terms(quanta, quanta_per_metre); }
 
 auto track_of(const model::Profile& profile) -> Track { return canonical_profile(profile).track; }
 
@@ -85,7 +85,7 @@ auto canonical_profile(const model::Profile& profile) -> CanonicalProfile {
     if (part.horizontal) {
       part.run = in_metres(run);
     } else if (run != 0) {
-      part.slope = quotient(run, rise);
+      part.slope = in_lowest_terms(run, rise);
     }
     out.track.push_back(std::move(part));
   }
