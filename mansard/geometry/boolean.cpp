@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <new>
@@ -158,22 +159,43 @@ auto are_on(Keep side, const std::vector<Polygon>& parts, const Polygon& a, cons
 /// within rounding of one line: what is inside of `b` is then left in the difference, and lacks in the intersection.
 /// Where any part of `a` is not on its side, both are made again on a grid that is coarser than rounding and finer than
 /// anything else, where it cannot happen.
+struct Divided {
+  Polygon a, b;
+  base::Result<std::vector<Polygon>> inside, outside;
+
+  Divided(const Polygon& first, const Polygon& second)
+      : a(first), b(second), inside(part_of(a, b, Keep::inside, 0)), outside(part_of(a, b, Keep::outside, 0)) {
+    const auto good = [this](const auto& in, const auto& out) {
+      return are_on(Keep::inside, in, a, b) && are_on(Keep::outside, out, a, b);
+    };
+    if (!inside || !outside || good(*inside, *outside)) return;
+    double most = 1;
+    for (const auto* polygon : {&a, &b})
+      for (const Point2 p : polygon->outer) most = std::max({most, std::abs(p.x), std::abs(p.y)});
+    constexpr int digits = 40;  // binary ones that are left of 53: 0.1 nm for blocks of 100 m
+    const double grid = std::ldexp(1.0, std::ilogb(most) - digits);
+    auto in = part_of(a, b, Keep::inside, grid), out = part_of(a, b, Keep::outside, grid);
+    if (!in || !out || !good(*in, *out)) return;
+    inside = std::move(in);
+    outside = std::move(out);
+  }
+};
+
+/// One side of it. The last few of a thread are kept: who asks for one side often asks for the other, too, and for the
+/// same again a little later.
 auto divided(const Polygon& a, const Polygon& b, Keep side) -> base::Result<std::vector<Polygon>> {
-  auto wanted = part_of(a, b, side, 0);
-  if (!wanted || !bounds(a.outer).overlaps(bounds(b.outer))) return wanted;
-  // What lacks on this side is too much on the other one.
-  const Keep other = side == Keep::inside ? Keep::outside : Keep::inside;
-  const auto rest = part_of(a, b, other, 0);
-  if (!rest || (are_on(side, *wanted, a, b) && are_on(other, *rest, a, b))) return wanted;
-  double most = 1;
-  for (const auto* polygon : {&a, &b})
-    for (const Point2 p : polygon->outer) most = std::max({most, std::abs(p.x), std::abs(p.y)});
-  constexpr int digits = 40;  // binary ones that are left of 53: 0.1 nm for blocks of 100 m
-  const double grid = std::ldexp(1.0, std::ilogb(most) - digits);
-  auto again = part_of(a, b, side, grid);
-  const auto rest_again = part_of(a, b, other, grid);
-  const bool good = again && rest_again && are_on(side, *again, a, b) && are_on(other, *rest_again, a, b);
-  return good ? again : wanted;
+  if (!bounds(a.outer).overlaps(bounds(b.outer))) return part_of(a, b, side, 0);
+  constexpr std::size_t most_kept = 8;
+  thread_local std::vector<Divided> kept;  // the last used at the end
+  auto found = std::ranges::find_if(kept, [&](const Divided& one) { return one.a == a && one.b == b; });
+  if (found == kept.end()) {
+    Divided made(a, b);
+    if (kept.size() == most_kept) kept.erase(kept.begin());
+    kept.push_back(std::move(made));
+  } else {
+    std::rotate(found, std::next(found), kept.end());
+  }
+  return side == Keep::inside ? kept.back().inside : kept.back().outside;
 }
 
 }  // namespace

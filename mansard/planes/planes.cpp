@@ -70,8 +70,11 @@ auto flat_of(const Moments& m, Point3 about) -> Flat {
                                           {m.xy / m.n - cx * cy, m.yy / m.n - cy * cy, m.yz / m.n - cy * cz},
                                           {m.xz / m.n - cx * cz, m.yz / m.n - cy * cz, m.zz / m.n - cz * cz}}};
   std::array<std::array<double, 3>, 3> v{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  constexpr int rounds = 12;  // each leaves a square of what was off the diagonal
-  for (int round = 0; round < rounds; ++round)
+  constexpr int rounds = 12;  // each leaves a square of what was off the diagonal, until that is less than rounding
+  constexpr double rounding = 0x1.0p-53;
+  for (int round = 0; round < rounds; ++round) {
+    const double off = std::abs(a[0][1]) + std::abs(a[0][2]) + std::abs(a[1][2]);
+    if (off <= rounding * (a[0][0] + a[1][1] + a[2][2])) break;
     for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
       if (a[p][q] == 0) continue;
       const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
@@ -88,6 +91,7 @@ auto flat_of(const Moments& m, Point3 about) -> Flat {
         v[k][p] = c * kp - s * kq, v[k][q] = s * kp + c * kq;
       }
     }
+  }
   std::array<int, 3> order{0, 1, 2};
   std::ranges::sort(order, {}, [&](int k) { return a[k][k]; });
   const int least = order[0];

@@ -120,9 +120,8 @@ TEST(Predicate, gives_the_same_sign_in_every_tier_as_rational_arithmetic) {
     for (int i = 3; i < 6; ++i) EXPECT_EQ(planes.side(ids[i], at), side_by_rationals(planes, planes[ids[i]], at)) << i;
     const auto e = planes.exact(at);
     const auto place = planes.nearest(at);
-    // mpq truncates: within one unit in the last place of the nearest.
-    EXPECT_NEAR(place.x, e.x.get_d(), std::abs(e.x.get_d()) * 0x1.0p-51);
-    EXPECT_NEAR(place.z, e.t.get_d(), std::abs(e.t.get_d()) * 0x1.0p-51);
+    EXPECT_EQ(place.x, nearest(e.x.get_num(), e.x.get_den()));
+    EXPECT_EQ(place.z, nearest(e.t.get_num(), e.t.get_den()));
     const Triple other{ids[3], ids[4], ids[5]};
     if (planes.convergence(other) == 0) continue;
     const int order = cmp(e.t, planes.exact(other).t);
@@ -149,6 +148,34 @@ TEST(Nearest, rounds_a_quotient_as_a_division_of_doubles_does) {
     const Wide factor = Wide(d) * Wide(n + 3) * Wide(1000003);
     EXPECT_EQ(nearest(Wide(Wide(n) * factor), Wide(Wide(d) * factor)), nearest(Wide(n), Wide(d)));
   }
+}
+
+TEST(Nearest, is_that_of_rationals_where_small_planes_meet) {
+  base::Random random(11);
+  const auto below = [&random](double most) { return static_cast<std::int64_t>(random.uniform(0, most)); };
+  int met = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double size = i % 4 == 0 ? 0x1.0p39 : 0x1.0p22, steep = i % 3 == 0 ? 0x1.0p29 : 0x1.0p17;
+    Planes planes;
+    Triple at{};
+    for (PlaneId& id : at) {
+      const std::int64_t offset = below(2 * size) - static_cast<std::int64_t>(size), height = below(size);
+      const std::int64_t run = i % 5 == 0 ? 0 : below(steep), rise = 1 + below(steep);
+      Rational slope{mpz_class(run), mpz_class(rise)};
+      slope.canonicalize();
+      const Direction d = direction_of({below(0x1.0p19) - (1 << 18), static_cast<int>(below(4))});
+      id = planes.add(plane_of(d, i % 7 == 0 ? 0 : offset, height, slope.get_num().get_si(), slope.get_den().get_si()));
+    }
+    if (i % 2 == 0) at[2] = planes.add(moment_plane(below(size)));
+    if (planes.convergence(at) == 0) continue;
+    ++met;
+    const auto e = planes.exact(at);
+    const auto place = planes.nearest(at);
+    EXPECT_EQ(place.x, nearest(e.x.get_num(), e.x.get_den())) << i;
+    EXPECT_EQ(place.y, nearest(e.y.get_num(), e.y.get_den())) << i;
+    EXPECT_EQ(place.z, nearest(e.t.get_num(), e.t.get_den())) << i;
+  }
+  EXPECT_GT(met, 10000);
 }
 
 }  // namespace

@@ -94,6 +94,25 @@ TEST(Boolean, operations_agree_on_areas) {
   for (const auto& p : *all) EXPECT_TRUE(is_simple(p));
 }
 
+TEST(Boolean, operations_give_the_same_whatever_was_asked_before) {
+  const Polygon square{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}};
+  const auto piece = [](int i) { return Polygon{{{0.5 * i, 1}, {20, 1}, {20, 5.0 + i}}, {}}; };
+  std::vector<std::vector<Polygon>> inside, outside;
+  for (int i = 0; i < 16; ++i) {
+    inside.push_back(*intersect(square, piece(i)));
+    outside.push_back(*subtract(square, piece(i)));
+    double all = 0;
+    for (const auto* side : {&inside.back(), &outside.back()})
+      for (const auto& polygon : *side) all += area(polygon);
+    EXPECT_NEAR(all, 100, 1e-9);
+  }
+  for (const int i : {15, 3, 3, 14, 0, 15, 3}) {
+    EXPECT_EQ(*subtract(square, piece(i)), outside[i]);
+    EXPECT_EQ(*intersect(square, piece(i)), inside[i]);
+    EXPECT_NE(*subtract(piece(i), square), outside[i]);
+  }
+}
+
 TEST(Boolean, operations_divide_a_polygon_that_touches_along_a_line_up_to_rounding) {
   // GEOS 3.11 alone leaves all of the piece in the difference.
   const Polygon part{{{0, 0},

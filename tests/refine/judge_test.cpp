@@ -112,6 +112,30 @@ TEST_F(Judging, tells_what_is_cheaper_as_the_costs_do) {
       }
 }
 
+TEST_F(Judging, of_points_sums_all_losses_and_ends_early_only_where_a_roof_is_too_dear) {
+  Site site = site_;
+  site.of_points = true;  // the centres of the cells
+  const Judge judge{site, options_, raising_, run_};
+  for (const double gutter : {2.0, 4.8, 5.0}) {
+    const Plan at = gabled(gutter, 0.7);
+    const auto judged = judge(at);
+    ASSERT_TRUE(judged);
+    ASSERT_EQ(judged->view.z_at.size(), site.z.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < site.z.size(); ++i) {
+      const double z = judged->view.z_at[i];
+      sum += site.weight[i] * refine::detail::stray_loss((std::isnan(z) ? 0 : z) - site.z[i], options_.samples.stray);
+    }
+    EXPECT_EQ(judged->misfit, sum * site.sample_area);
+    EXPECT_EQ(judge.misfit_of(judged->view), judged->misfit);
+    for (const double share : {0.01, 0.5, 0.9, 1.0}) EXPECT_FALSE(judge.cheaper(at, share * judged->cost));
+    const auto cheaper = judge.cheaper(at, judged->cost + 2 * options_.same_cost);
+    ASSERT_TRUE(cheaper);
+    expect_same(*cheaper, *judged);
+    EXPECT_EQ(cheaper->view.face_at, judged->view.face_at);
+  }
+}
+
 TEST_F(Judging, knows_a_roof_again_as_it_was) {
   KnownRoofs known;
   const auto with = judge(&known);

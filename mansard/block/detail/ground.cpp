@@ -85,7 +85,9 @@ void each_sample(const geometry::Mesh& mesh, const Take& take) {
 }  // namespace
 
 auto percentile(std::vector<Sample> samples, double share, double least) -> std::optional<double> {
-  std::ranges::sort(samples, {}, [](const Sample& s) { return std::tuple(s.z, s.at, s.weight); });
+  std::ranges::sort(samples, [](const Sample& p, const Sample& q) {
+    return p.z != q.z ? p.z < q.z : std::tuple(p.at, p.weight) < std::tuple(q.at, q.weight);
+  });
   double all = 0;
   for (const auto& sample : samples) all += sample.weight;
   if (samples.empty() || !(all >= least)) return std::nullopt;

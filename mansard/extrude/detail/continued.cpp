@@ -82,8 +82,16 @@ class Continuing {
         while (part > 0 && track[part].height > from) --part;
         if (track[part].horizontal || track[part].slope <= 0 || track[part].height >= from) continue;
         const Point2 inward = left_of(host.direction.approximate());
-        const double there = Rational(host.offset + inward_at(track, from)).get_d();
-        const double off = std::max(std::abs(dot(inward, start) - there), std::abs(dot(inward, end) - there));
+        const auto off_from = [&](double there) {
+          return std::max(std::abs(dot(inward, start) - there), std::abs(dot(inward, end) - there));
+        };
+        // Mostly it is far off, which doubles tell: they are within a micrometre of what is exact.
+        constexpr double certain = 1e-6;
+        const TrackPart& below = track[part];
+        if (off_from(host.offset.get_d() + below.inward.get_d() +
+                     below.slope.get_d() * (from.get_d() - below.height.get_d())) > near_ + certain)
+          continue;
+        const double off = off_from(Rational(host.offset + inward_at(track, from)).get_d());
         if (off > near_ || !same_above(from, track_of(edge), track)) continue;
         const std::tuple rank(track[part].height.get_d(), off);
         if (rank >= least) continue;

@@ -60,6 +60,7 @@ auto canonical(const Source& source, const Options& options, std::string& why) -
     for (std::size_t k = 1; !footprint && k < cares.size(); ++k) {
       std::string other;  // the first reason is the one to tell
       footprint = put_on_lines(from, options, cares[k], other);
+      if (footprint) footprint->by_profiles = true;  // what was refused may not be with others
     }
     return footprint;
   };
@@ -73,12 +74,14 @@ auto canonical(const Source& source, const Options& options, std::string& why) -
     const Source flatter = source_of(best, source);
     std::string reason;
     auto again = made(flatter, reason);
+    best.by_profiles = best.by_profiles || !again || again->by_profiles;
     if (!again || again->moved + best.moved > options.tolerance) break;
     if (again->corners == best.corners) break;
     again->moved += best.moved;
     again->tally.straightened += best.tally.straightened;
     again->tally.collinear += best.tally.collinear;
     again->tally.slivers += best.tally.slivers;
+    again->by_profiles = best.by_profiles;
     best = *std::move(again);
   }
   return footprint;

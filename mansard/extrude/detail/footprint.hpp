@@ -68,6 +68,7 @@ struct Footprint {
   geometry::Point2 origin;  ///< half metres, taken off all coordinates
   double moved = 0;         ///< m; bound on the Hausdorff distance between this outline and the source's, both ways
   Tally tally;
+  bool by_profiles = false;  ///< whether other profiles on the same outline could give other lines
 };
 
 /// A ring of the plan prepared for the kernel: oriented, repeated points dropped, the plan's edges remembered.

@@ -463,6 +463,9 @@ class Lines {
       all.back().to = w;
       all.push_back({track(r, e), e, w, end});
     }
+    const auto& profile = source_.rings[r].profile;
+    for (std::size_t e = run.first + 1; e < run.last; ++e)
+      if (profile[e % profile.size()] != profile[run.first % profile.size()]) out_.by_profiles = true;
     if (all.size() == 1) return all;
     std::vector<Stretch> kept;
     for (const Stretch& s : all)

@@ -7,9 +7,9 @@
 
 namespace mansard::extrude::detail {
 
-/// As canonical(); null, and why, where that gives nothing. What the lines become depends on the outline and on which
-/// profiles climb alike, not on the profiles themselves, so that only the tracks are made anew for an outline that is
-/// among the last few of this thread. Valid until the next call on the thread.
+/// As canonical(); null, and why, where that gives nothing. What the lines become depends on the outline and, at most
+/// (`Footprint::by_profiles`), on which profiles climb alike, so that only the tracks are made anew for an outline that
+/// is among the last few of this thread. Valid until the next call on the thread.
 [[nodiscard]] auto canonical_outline(const Source& source, const Options& options, std::string& why)
     -> const Footprint*;
 

@@ -151,6 +151,105 @@ auto nearest_magnitude(Number n, Number d) -> double {
   return std::ldexp(static_cast<double>(digits), -shift);
 }
 
+/// Whole numbers of 256 bits, two's complement: enough where three planes with small coefficients meet, as nearly all
+/// of buildings have.
+struct Middle {
+  UInt128 high = 0, low = 0;
+
+  [[nodiscard]] auto is_negative() const -> bool { return static_cast<Int128>(high) < 0; }
+  [[nodiscard]] auto is_zero() const -> bool { return high == 0 && low == 0; }
+  friend auto operator+(Middle a, Middle b) -> Middle {
+    const UInt128 low = a.low + b.low;
+    return {a.high + b.high + (low < a.low ? 1 : 0), low};
+  }
+  friend auto operator-(Middle a) -> Middle {
+    const UInt128 low = -a.low;
+    return {~a.high + (low == 0 ? 1 : 0), low};
+  }
+  friend auto operator-(Middle a, Middle b) -> Middle { return a + -b; }
+  [[nodiscard]] auto shifted_up(int by) const -> Middle {
+    if (by == 0) return *this;
+    if (by >= 128) return {low << (by - 128), 0};
+    return {high << by | low >> (128 - by), low << by};
+  }
+  [[nodiscard]] auto shifted_down(int by) const -> Middle {
+    if (by == 0) return *this;
+    if (by >= 128) return {0, high >> (by - 128)};
+    return {high >> by, low >> by | high << (128 - by)};
+  }
+};
+
+/// Of magnitudes.
+auto product_of(UInt128 a, UInt128 b) -> Middle {
+  const auto low = [](UInt128 v) { return static_cast<UInt128>(static_cast<std::uint64_t>(v)); };
+  const UInt128 ll = low(a) * low(b), lh = low(a) * (b >> 64), hl = (a >> 64) * low(b), hh = (a >> 64) * (b >> 64);
+  const UInt128 middle = (ll >> 64) + low(lh) + low(hl);
+  return {hh + (lh >> 64) + (hl >> 64) + (middle >> 64), middle << 64 | low(ll)};
+}
+auto product_of(Int128 a, Int128 b) -> Middle {
+  const auto magnitude = [](Int128 v) { return v < 0 ? -static_cast<UInt128>(v) : static_cast<UInt128>(v); };
+  const Middle product = product_of(magnitude(a), magnitude(b));
+  return (a < 0) != (b < 0) ? -product : product;
+}
+auto bits_in(UInt128 v) -> int {
+  const auto high = static_cast<std::uint64_t>(v >> 64);
+  return high != 0 ? 64 + static_cast<int>(std::bit_width(high))
+                   : static_cast<int>(std::bit_width(static_cast<std::uint64_t>(v)));
+}
+auto bits_in(Middle v) -> int { return v.high != 0 ? 128 + bits_in(v.high) : bits_in(v.low); }
+
+/// n / d as `nearest_magnitude` gives it, of magnitudes below 2^239 and 2^189: shifted, both stay below 2^253. The
+/// quotient of their leading digits, 64 bits of d and the same of n and 64 more, is too large by 2 at most (D. E.
+/// Knuth, The Art of Computer Programming 2, 4.3.1, theorem B).
+auto nearest_magnitude(Middle n, Middle d) -> double {
+  if (n.is_zero()) return 0;
+  const int shift = 63 - (bits_in(n) - bits_in(d));
+  if (shift >= 0) n = n.shifted_up(shift);
+  else d = d.shifted_up(-shift);
+  const int off = bits_in(d) - 64;
+  const UInt128 leading_n = off >= 0 ? n.shifted_down(off).low : n.shifted_up(-off).low,
+                leading_d = off >= 0 ? d.shifted_down(off).low : d.shifted_up(-off).low;
+  const UInt128 most = UINT64_MAX;
+  UInt128 quotient = std::min(leading_n / leading_d, most);
+  const auto times = [&](UInt128 q) {  // q < 2^64, and the product is below 2^254
+    const Middle low = product_of(d.low, q);
+    return Middle{low.high + d.high * q, low.low};
+  };
+  Middle rest = n - times(quotient);
+  for (; rest.is_negative(); rest = rest + d) --quotient;
+  auto digits = static_cast<std::uint64_t>(quotient);
+  if (!rest.is_zero()) digits |= 1;
+  return std::ldexp(static_cast<double>(digits), -shift);
+}
+/// As `nearest`.
+auto quotient_of(Middle n, Middle d) -> double {
+  const bool minus = n.is_negative() != d.is_negative() && !n.is_zero();
+  const double magnitude = nearest_magnitude(n.is_negative() ? -n : n, d.is_negative() ? -d : d);
+  return minus ? -magnitude : magnitude;
+}
+
+/// |A|, |B|, |S| < 2^62, |D| < 2^112: minors of A, B and S are below 2^125, W below 2^189, X, Y and E below 2^239.
+auto is_small(const Plane& plane) -> bool {
+  const auto is_below = [](Int128 value, int bits) {
+    const Int128 most = static_cast<Int128>(1) << bits;
+    return value < most && value > -most;
+  };
+  const auto& c = plane.whole;
+  return plane.narrow && is_below(c.A, 62) && is_below(c.B, 62) && is_below(c.S, 62) && is_below(c.D, 112);
+}
+
+/// Where three planes meet that are small.
+auto meet_of(const Coefficients<Int128>& p, const Coefficients<Int128>& q, const Coefficients<Int128>& r)
+    -> Meet<Middle> {
+  const auto det_of = [](Int128 a, Int128 b, Int128 c, Int128 m_bc, Int128 m_ac, Int128 m_ab) {
+    return product_of(a, m_bc) - product_of(b, m_ac) + product_of(c, m_ab);
+  };
+  const Int128 pq = p.A * q.B - q.A * p.B, pr = p.A * r.B - r.A * p.B, qr = q.A * r.B - r.A * q.B;
+  return {det_of(p.D, q.D, r.D, q.B * r.S - r.B * q.S, p.B * r.S - r.B * p.S, p.B * q.S - q.B * p.S),
+          det_of(p.D, q.D, r.D, r.A * q.S - q.A * r.S, r.A * p.S - p.A * r.S, q.A * p.S - p.A * q.S),
+          det_of(p.D, q.D, r.D, qr, pr, pq), det_of(p.S, q.S, r.S, qr, pr, pq)};
+}
+
 }  // namespace
 
 auto nearest(const Wide& n, const Wide& d) -> double {
@@ -313,6 +412,12 @@ auto Planes::exact(const Triple& at) const -> Exact {
 }
 
 auto Planes::nearest(const Triple& at) const -> geometry::Point3 {
+  const Plane &i = planes_[at[0]], &j = planes_[at[1]], &k = planes_[at[2]];
+  if (is_small(i) && is_small(j) && is_small(k)) {
+    const auto m = meet_of(i.whole, j.whole, k.whole);
+    if (m.W.is_zero()) throw Broken("three lines that do not meet in one point");
+    return {quotient_of(m.X, m.W), quotient_of(m.Y, m.W), quotient_of(-m.E, m.W)};
+  }
   const auto exactly = [&]<class Number>(Number) -> geometry::Point3 {
     const auto p = coefficients<Number>(at[0]), q = coefficients<Number>(at[1]), r = coefficients<Number>(at[2]);
     const Meet<Number> m = Triangle<Number>(p, q, r).meet();

@@ -1,6 +1,7 @@
 // Profiles on the grid: what the sweep climbs along, and the same as a profile again.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "mansard/extrude/detail/footprint.hpp"
 
@@ -37,13 +38,15 @@ auto thinned(const std::vector<Knot>& knots) -> std::vector<Knot> {
   return kept;
 }
 
+/// A fraction; the denominator is positive.
+auto in_lowest_terms(std::int64_t numerator, std::int64_t denominator) -> Rational {
+  const auto common = std::gcd(numerator, denominator);
+  return {static_cast<long>(numerator / common), static_cast<unsigned long>(denominator / common)};
+}
+
 }  // namespace
 
-auto in_metres(std::int64_t quanta) -> Rational {
-  Rational value(mpz_class(static_cast<long>(quanta)), 65536);
-  value.canonicalize();
-  return value;
-}
+auto in_metres(std::int64_t quanta) -> Rational { return in_lowest_terms(quanta, quanta_per_metre); }
 
 auto track_of(const model::Profile& profile) -> Track { return canonical_profile(profile).track; }
 
@@ -82,8 +85,7 @@ auto canonical_profile(const model::Profile& profile) -> CanonicalProfile {
     if (part.horizontal) {
       part.run = in_metres(run);
     } else if (run != 0) {
-      part.slope = Rational(mpz_class(static_cast<long>(run)), mpz_class(static_cast<long>(rise)));
-      part.slope.canonicalize();
+      part.slope = in_lowest_terms(run, rise);
     }
     out.track.push_back(std::move(part));
   }

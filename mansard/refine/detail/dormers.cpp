@@ -92,6 +92,28 @@ class Shown {
       ends_[k] = (heights_[k] - slope_.gutter) / slope_.slope;
     }
   }
+  /// Of a box of one height, what of a sample depends on its left and right side, its front, and its back.
+  struct Sides {
+    double left = 0, right = 0, below = 0, density = 0, below_back = 0, density_back = 0;
+  };
+  /// Those of which the box is another than `other`, or all.
+  void update(Sides& sides, double u, double v, const Box* other) const {
+    if (!other || other->left != box_.left) sides.left = normal_curve.below((box_.left - u) * inverse_);
+    if (!other || other->right != box_.right) sides.right = normal_curve.below((box_.right - u) * inverse_);
+    if (!other || other->front != box_.front) {
+      const double from = (box_.front - v) * inverse_;
+      sides.below = normal_curve.below(from), sides.density = normal_curve.density(from);
+    }
+    if (!other || other->eaves != box_.eaves) {
+      const double to = (ends_[0] - v) * inverse_;
+      sides.below_back = normal_curve.below(to), sides.density_back = normal_curve.density(to);
+    }
+  }
+  [[nodiscard]] auto operator()(const Sides& sides, double v) const -> double {
+    const double share = sides.right - sides.left;
+    if (share <= least_share || ends_[0] <= box_.front) return 0;
+    return share * above_slope(v, 0, sides.below_back - sides.below, sides.density - sides.density_back);
+  }
   [[nodiscard]] auto operator()(double u, double v) const -> double {
     const double first = normal_curve.below((box_.left - u) * inverse_),
                  last = normal_curve.below((box_.right - u) * inverse_);
@@ -116,8 +138,10 @@ class Shown {
   [[nodiscard]] auto ramp(double v, int k, double below, double density) const -> double {
     if (ends_[k] <= box_.front) return 0;
     const double to = (ends_[k] - v) * inverse_;
-    return (heights_[k] - slope_.at(v)) * (normal_curve.below(to) - below) -
-           slope_.slope * blur_ * (density - normal_curve.density(to));
+    return above_slope(v, k, normal_curve.below(to) - below, density - normal_curve.density(to));
+  }
+  [[nodiscard]] auto above_slope(double v, int k, double share, double density) const -> double {
+    return (heights_[k] - slope_.at(v)) * share - slope_.slope * blur_ * density;
   }
 
   static constexpr int most_strips = 8;
@@ -132,11 +156,12 @@ class Shown {
 
 /// The squared error that is left when the slope, too, may be raised and tilted a little: what it was fitted to was in
 /// part the dormer.
-auto error_of(const std::vector<Sample>& samples, const Slope& slope, const Box* box, double blur) -> double {
+template <class AboveSlope>
+auto error_left(const std::vector<Sample>& samples, const Slope& slope, AboveSlope shown) -> double {
   double n = 0, sv = 0, svv = 0, sd = 0, svd = 0, sdd = 0;
-  for (const auto& s : samples) {
-    double d = s.z - slope.at(s.v);
-    if (box) d -= Shown(*box, slope, blur)(s.u, s.v);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto& s = samples[i];
+    const double d = s.z - slope.at(s.v) - shown(i);
     ++n, sv += s.v, svv += s.v * s.v, sd += d, svd += s.v * d, sdd += d * d;
   }
   const double determinant = n * svv - sv * sv;
@@ -145,12 +170,60 @@ auto error_of(const std::vector<Sample>& samples, const Slope& slope, const Box*
   return std::max(0.0, sdd - raised * sd - tilted * svd);
 }
 
+auto error_of(const std::vector<Sample>& samples, const Slope& slope, const Box* box, double blur) -> double {
+  if (!box) return error_left(samples, slope, [](std::size_t) { return 0.0; });
+  const Shown shown(*box, slope, blur);
+  return error_left(samples, slope, [&](std::size_t i) { return shown(samples[i].u, samples[i].v); });
+}
+
+/// The same of boxes that differ from one in a side or two: what is shown of the others is kept.
+class Errors {
+ public:
+  Errors(const Box& box, const std::vector<Sample>& samples, const Slope& slope, double blur)
+      : samples_(samples), slope_(slope), blur_(blur), kept_(samples.size()), tried_(samples.size()) {
+    error_ = error_for(box, nullptr);
+    keep(box);
+  }
+  [[nodiscard]] auto error() const -> double { return error_; }
+
+  /// Of a box; kept where it is less than that.
+  auto is_less(const Box& box, double than) -> bool {
+    const double error = error_for(box, &box_);
+    if (!(error < than)) return false;
+    error_ = error;
+    keep(box);
+    return true;
+  }
+
+ private:
+  auto error_for(const Box& box, const Box* kept) -> double {
+    if (box.pitch > 0) return error_of(samples_, slope_, &box, blur_);
+    const Shown shown(box, slope_, blur_);
+    return error_left(samples_, slope_, [&](std::size_t i) {
+      tried_[i] = kept_[i];
+      shown.update(tried_[i], samples_[i].u, samples_[i].v, kept);
+      return shown(tried_[i], samples_[i].v);
+    });
+  }
+  void keep(const Box& box) {
+    box_ = box;
+    std::swap(kept_, tried_);
+  }
+
+  const std::vector<Sample>& samples_;
+  const Slope& slope_;
+  double blur_;
+  Box box_;
+  double error_ = 0;
+  std::vector<Shown::Sides> kept_, tried_;  // per sample: of the box, and of the one that was tried last
+};
+
 /// Walls and eaves moved until that no longer helps, by less and less.
 auto fitted_box(Box box, const std::vector<Sample>& samples, const Slope& slope, double blur, double reach, double same)
     -> Box {
   Box least = box, most = box;
   least.left -= reach, least.front -= reach, most.right += reach, most.eaves += reach;
-  double error = error_of(samples, slope, &box, blur);
+  Errors errors(box, samples, slope, blur);
   for (const double step : {0.4, 0.2, 0.1, 0.05}) {
     for (int round = 0; round < 12; ++round) {
       bool moved = false;
@@ -165,8 +238,7 @@ auto fitted_box(Box box, const std::vector<Sample>& samples, const Slope& slope,
           if (!(other.width() > 0.4) || !(other.back(slope) > other.front)) continue;
           if (other.left < least.left || other.right > most.right || other.front < least.front) continue;
           if (other.eaves > most.eaves) continue;
-          const double e = error_of(samples, slope, &other, blur);
-          if (e < error - same) box = other, error = e, moved = true;
+          if (errors.is_less(other, errors.error() - same)) box = other, moved = true;
         }
       if (!moved) break;
     }

@@ -32,18 +32,52 @@ void each_edge(const Plan& plan, See see) {
   for (const auto& hole : plan.holes) ring(hole);
 }
 
-/// Heights over the distance from the sides that carry roof.
-auto looks_over(const Plan& plan, const std::vector<bool>& carries, const Site& site, const Options::Forms& options)
-    -> std::vector<Look> {
-  const std::size_t stride = 1 + site.cells.size() / static_cast<std::size_t>(options.samples);
-  const auto eaves = eaves_of(plan, carries);
-  std::vector<Look> looks;
-  for (std::size_t i = 0; i < site.cells.size(); i += stride) {
-    if (const auto near = nearest_eaves(eaves, site.places[i]))
-      looks.push_back({near->inward, site.z[i], site.weight[i]});
-  }
-  return looks;
+/// m: how far inward of an edge a place is, in a strip widened by 45°.
+auto inward_in_strip(const Eaves& edge, Point2 at) -> std::optional<double> {
+  const double d = dot(at - edge.start, geometry::left_of(edge.along)), t = dot(at - edge.start, edge.along);
+  return d >= 0 && t >= -d && t <= edge.length + d ? std::optional(d) : std::nullopt;
 }
+
+/// The nearest so far, or another; which of two as near it is, their order decides.
+void consider(std::optional<Nearest>& nearest, Nearest other) {
+  if (!nearest || other.inward < nearest->inward - same_distance) nearest = other;
+}
+
+/// Samples, evenly chosen, and the edges in whose strips they are: of every form the same.
+class Strips {
+ public:
+  Strips(const Plan& plan, const Site& site, const Options::Forms& options) : site_(site) {
+    const std::size_t stride = 1 + site.cells.size() / static_cast<std::size_t>(options.samples);
+    const auto edges = eaves_of(plan, std::vector<bool>(plan.profiles.size(), true));
+    for (std::size_t i = 0; i < site.cells.size(); i += stride) {
+      for (const Eaves& edge : edges)
+        if (const auto inward = inward_in_strip(edge, site.places[i])) edges_.push_back({edge.profile, *inward});
+      samples_.push_back({i, edges_.size()});
+    }
+  }
+
+  /// Heights over the distance from the sides that carry roof.
+  [[nodiscard]] auto looks_at(const std::vector<bool>& carries) const -> std::vector<Look> {
+    std::vector<Look> looks;
+    looks.reserve(samples_.size());
+    std::size_t edge = 0;
+    for (const auto& [i, end] : samples_) {
+      std::optional<Nearest> nearest;
+      for (; edge < end; ++edge)
+        if (carries[edges_[edge].profile]) consider(nearest, edges_[edge]);
+      if (nearest) looks.push_back({nearest->inward, site_.z[i], site_.weight[i]});
+    }
+    return looks;
+  }
+
+ private:
+  struct Sample {
+    std::size_t index = 0, end = 0;  // of the site; where its edges end
+  };
+  const Site& site_;
+  std::vector<Nearest> edges_;
+  std::vector<Sample> samples_;
+};
 
 /// m: of a profile at a distance from its edge.
 auto height_at(const Profile& profile, double inward) -> double {
@@ -195,11 +229,8 @@ auto eaves_of(const Plan& plan, const std::vector<bool>& carries) -> std::vector
 
 auto nearest_eaves(const std::vector<Eaves>& eaves, Point2 at) -> std::optional<Nearest> {
   std::optional<Nearest> nearest;
-  for (const Eaves& edge : eaves) {
-    const double d = dot(at - edge.start, geometry::left_of(edge.along)), t = dot(at - edge.start, edge.along);
-    if (d >= 0 && t >= -d && t <= edge.length + d && (!nearest || d < nearest->inward - same_distance))
-      nearest = {edge.profile, d};
-  }
+  for (const Eaves& edge : eaves)
+    if (const auto inward = inward_in_strip(edge, at)) consider(nearest, {edge.profile, *inward});
   return nearest;
 }
 
@@ -242,9 +273,9 @@ auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std
   const auto share = [&](double s) { return base::percentile_of_sorted(site.sorted, s, base::Rank::below); };
   const double top = std::max(forms.min_height, share(forms.cap_percentile) + forms.cap_clearance);
   const auto sides = sides_of(plan);
-  const auto looks_at = [&](const std::vector<bool>& carries) { return looks_over(plan, carries, site, forms); };
+  const Strips strips(plan, site, forms);
 
-  const auto all = looks_at(std::vector<bool>(sides.size(), true));
+  const auto all = strips.looks_at(std::vector<bool>(sides.size(), true));
   for (const double level : {commonest(site.sorted, options), share(0.5)}) {
     Plan flat = plan;
     flat.cap = std::max(forms.min_height, level);
@@ -257,7 +288,7 @@ auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std
     std::vector<bool> carries(sides.size());
     for (std::size_t p = 0; p < sides.size(); ++p) carries[p] = sides[p].length > 0 && carries_roof(p);
     if (std::ranges::none_of(carries, [](bool c) { return c; })) return;
-    auto looks = looks_at(carries);
+    const auto looks = strips.looks_at(carries);
     const auto line = common_line(looks, options.lines);
     const auto give = [&](const Profile& roof, double gutter) {
       Form form{plan, 0};

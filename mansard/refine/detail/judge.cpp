@@ -46,20 +46,38 @@ auto priced_faces(const model::Solid& sketch) -> double {
 
 }  // namespace
 
-auto Judge::misfit_of(const View& view, double cap, double most) const -> double {
+auto Judge::loss_at(const View& view, std::size_t sample, double cap) const -> double {
+  const double roof = view.z_at[sample];  // NaN past the solid, which falls to its base there
+  return site_.weight[sample] *
+         stray_loss((roof == roof ? std::min(roof, cap) : 0) - site_.z[sample], options_.samples.stray);
+}
+
+auto Judge::with_ceilings(const View& view, double cap, double misfit) const -> double {
+  for (const auto& [cell, ceiling] : site_.ceilings)
+    if (const double above = std::min(view.z[cell], cap) - ceiling; above > 0)
+      misfit += loss(above, options_.robust) * site_.cell_area;
+  return misfit;
+}
+
+auto Judge::misfit_of_points(const model::Solid& sketch, View& view, double most, double paid) const -> double {
+  constexpr std::size_t at_once = 256;
+  SampleViews samples(sketch, site_, view);
+  double sum = 0;
+  for (std::size_t first = 0, last = 0; first < site_.z.size(); first = last) {
+    last = std::min(first + at_once, site_.z.size());
+    samples.see(first, last);
+    for (std::size_t i = first; i < last; ++i) sum += loss_at(view, i, std::numeric_limits<double>::infinity());
+    if (sum * site_.sample_area + paid >= most) return sum * site_.sample_area;
+  }
+  return with_ceilings(view, std::numeric_limits<double>::infinity(), sum * site_.sample_area);
+}
+
+auto Judge::misfit_of(const View& view, double cap, double most, double paid) const -> double {
   const auto& z = view.z;
   if (site_.of_points) {
     double sum = 0;
-    for (std::size_t i = 0; i < site_.z.size(); ++i) {
-      const double roof = view.z_at[i];  // NaN past the solid, which falls to its base there
-      sum +=
-          site_.weight[i] * stray_loss((roof == roof ? std::min(roof, cap) : 0) - site_.z[i], options_.samples.stray);
-    }
-    sum *= site_.sample_area;
-    for (const auto& [cell, ceiling] : site_.ceilings)
-      if (const double above = std::min(z[cell], cap) - ceiling; above > 0)
-        sum += loss(above, options_.robust) * site_.cell_area;
-    return sum;
+    for (std::size_t i = 0; i < site_.z.size(); ++i) sum += loss_at(view, i, cap);
+    return with_ceilings(view, cap, sum * site_.sample_area);
   }
   // The heights as the scan would have them, smoothed as it was measured to smooth. Else a slope would suit the scan of
   // a step better than the step. A sample past the solid (its outline is rounded by some millimetres) falls to its
@@ -94,7 +112,7 @@ auto Judge::misfit_of(const View& view, double cap, double most) const -> double
     losses_of(last - first, site_.kernel, around, &site_.unblurred[start + first], &site_.heights[start + first],
               &site_.weights[start + first], robust, losses.data());
     for (std::size_t i = 0; i < last - first; ++i) sum += losses[i];
-    if (sum * site_.cell_area >= most) return sum * site_.cell_area;
+    if (sum * site_.cell_area + paid >= most) return sum * site_.cell_area;
   }
   // A roof is under the crown that hides it.
   for (const auto& [cell, ceiling] : site_.ceilings)
@@ -140,8 +158,9 @@ auto Judge::of(const model::Plan& plan, model::Solid sketch, double most) const 
   const double faces = options_.face_price * priced_faces(sketch);
   if (faces >= most) return std::nullopt;
   Judged out{plan, std::move(sketch), {}, 0, {}, 0, 0};
-  out.view = view_of(out.sketch, site_);
-  out.misfit = misfit_of(out.view, std::numeric_limits<double>::infinity(), most);
+  out.view = cells_of(out.sketch, site_);
+  out.misfit = site_.of_points ? misfit_of_points(out.sketch, out.view, most, faces)
+                               : misfit_of(out.view, std::numeric_limits<double>::infinity(), most, faces);
   if (out.misfit + faces >= most) return std::nullopt;
   out.bare = bare_faces(out.sketch, out.view, site_, options_);
   price(out);

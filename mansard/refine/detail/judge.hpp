@@ -54,9 +54,10 @@ class Judge {
   /// mostly known before all of it was compared.
   [[nodiscard]] auto cheaper(const model::Plan& plan, double than) const -> std::optional<Judged>;
 
-  /// m²·m²: of a roof, cut off at `cap`, m above the base. A sum that reaches `most` may end there.
+  /// m²·m²: of a roof, cut off at `cap`, m above the base. A sum that reaches `most` together with what is `paid`
+  /// already may end there.
   [[nodiscard]] auto misfit_of(const View& view, double cap = std::numeric_limits<double>::infinity(),
-                               double most = std::numeric_limits<double>::infinity()) const -> double;
+                               double most = std::numeric_limits<double>::infinity(), double paid = 0) const -> double;
 
   [[nodiscard]] auto site() const -> const Site& { return site_; }
   [[nodiscard]] auto options() const -> const Options& { return options_; }
@@ -66,6 +67,12 @@ class Judge {
   [[nodiscard]] auto of(const model::Plan& plan, model::Solid sketch, double most) const -> std::optional<Judged>;
   /// If it is known; seen from above only where it costs less than that.
   [[nodiscard]] auto again(const model::Plan& plan, double most) const -> std::optional<Judged>;
+  /// The same of a roof of which the view lacks the samples, points: they are added as far as it goes.
+  [[nodiscard]] auto misfit_of_points(const model::Solid& sketch, View& view, double most, double paid) const -> double;
+  /// m²·m², over the area of a sample: of one that is a point.
+  [[nodiscard]] auto loss_at(const View& view, std::size_t sample, double cap) const -> double;
+  /// m²·m²: a misfit, and that of a roof above the crowns that hide it.
+  [[nodiscard]] auto with_ceilings(const View& view, double cap, double misfit) const -> double;
   /// Fills in what the faces and what is unsupported cost, and the sum.
   void price(Judged& judged) const;
 

@@ -29,8 +29,8 @@ class Pieces {
   /// Joins two pieces at a time, those that promise most first, until no pair is cheaper as one.
   void join() {
     replace_pairs(
-        &Pair::was_joined, [this](const Piece& a, const Piece& b) { return work_.may_join(a, b); },
-        [this](const Piece& a, const Piece& b, const Union& both) { return work_.cost_of(a, b) - both.roof.cost; },
+        &Pair::was_joined, United::all, [this](const Piece& a, const Piece& b) { return work_.may_join(a, b); },
+        [this](const Piece& a, const Piece& b, const Pair& pair) { return work_.cost_of(a, b) - pair.both->roof.cost; },
         [this](const Piece& a, const Piece& b, const Union& both) {
           std::vector<Piece> out;
           if (auto one = work_.as_one(a, b, both)) out.push_back(std::move(*one));
@@ -41,8 +41,8 @@ class Pieces {
   /// Moves walls between pieces by cutting pairs anew, those with most misfit where they meet first.
   void cut_anew() {
     replace_pairs(
-        &Pair::was_cut, [this](const Piece& a, const Piece& b) { return work_.may_cut_anew(a, b); },
-        [this](const Piece& a, const Piece& b, const Union&) { return work_.misfit_between(a, b); },
+        &Pair::was_cut, United::chosen, [this](const Piece& a, const Piece& b) { return work_.may_cut_anew(a, b); },
+        [this](const Piece& a, const Piece& b, const Pair&) { return work_.misfit_between(a, b); },
         [this](const Piece& a, const Piece& b, const Union& both) { return work_.cut_anew(a, b, both); });
   }
 
@@ -83,26 +83,25 @@ class Pieces {
     double promise = 0;
   };
 
+  /// Which pairs are put under one roof before it is known which are tried: those whose promise depends on it.
+  enum class United { all, chosen };
+
   /// In turns, of which each tries pairs that have no piece in common, the most promising first.
   template <class May, class Promise, class Replace>
-  void replace_pairs(bool Pair::*was, May may, Promise promise, Replace replace) {
+  void replace_pairs(bool Pair::*was, United united, May may, Promise promise, Replace replace) {
     while (!work_.cancelled()) {
       auto fresh = fresh_pairs(was, may);
+      if (united == United::all) {
+        unite(fresh, was);
+        std::erase_if(fresh, [](const Fresh& one) { return !one.pair->both; });
+      }
       base::parallel_for(fresh.size(), [&](std::size_t k) {
         auto& [i, j, pair, value] = fresh[k];
-        if (!std::exchange(pair->was_united, true)) pair->both = work_.united(pieces_[i], pieces_[j]);
-        if (pair->both) value = promise(pieces_[i], pieces_[j], *pair->both);
-        else pair->*was = true;
+        value = promise(pieces_[i], pieces_[j], *pair);
       });
-      std::erase_if(fresh, [](const Fresh& one) { return !one.pair->both; });
       rank(
           fresh, [](const Fresh& one) { return -one.promise; }, work_.options().same_cost);
-      std::vector<bool> taken(pieces_.size(), false);
-      std::erase_if(fresh, [&](const Fresh& one) {
-        if (taken[one.i] || taken[one.j]) return true;
-        taken[one.i] = taken[one.j] = true;
-        return false;
-      });
+      fresh = first_of(std::move(fresh), was);
       if (fresh.empty()) return;
       std::vector<std::vector<Piece>> found(fresh.size());
       base::parallel_for(fresh.size(), [&](std::size_t k) {
@@ -112,6 +111,36 @@ class Pieces {
       });
       put(fresh, std::move(found));
     }
+  }
+
+  /// Both pieces of each pair under one roof, if that was not tried; those that cannot be are tried no more.
+  void unite(const std::vector<Fresh>& pairs, bool Pair::*was) {
+    base::parallel_for(pairs.size(), [&](std::size_t k) {
+      const auto& [i, j, pair, value] = pairs[k];
+      if (!std::exchange(pair->was_united, true)) pair->both = work_.united(pieces_[i], pieces_[j]);
+      if (!pair->both) pair->*was = true;
+    });
+  }
+
+  /// Those that are tried: of pairs that can be put under one roof and have a piece in common, the first.
+  auto first_of(std::vector<Fresh> pairs, bool Pair::*was) -> std::vector<Fresh> {
+    for (;;) {
+      auto chosen = disjoint(pairs);
+      unite(chosen, was);
+      if (std::ranges::all_of(chosen, [](const Fresh& one) { return one.pair->both.has_value(); })) return chosen;
+      std::erase_if(pairs, [](const Fresh& one) { return one.pair->was_united && !one.pair->both; });
+    }
+  }
+
+  /// The first of those that have a piece in common.
+  [[nodiscard]] auto disjoint(std::vector<Fresh> pairs) const -> std::vector<Fresh> {
+    std::vector<bool> taken(pieces_.size(), false);
+    std::erase_if(pairs, [&](const Fresh& one) {
+      if (taken[one.i] || taken[one.j]) return true;
+      taken[one.i] = taken[one.j] = true;
+      return false;
+    });
+    return pairs;
   }
 
   template <class May>

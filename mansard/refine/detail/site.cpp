@@ -78,6 +78,18 @@ void each_near(Point2 a, Point2 b, double within, const Heights& grid, See see) 
   }
 }
 
+/// Per cell of the grid, whether its centre is nearer to the polygon's edges than that.
+auto cells_near(const Polygon& polygon, double within, const Heights& grid) -> std::vector<char> {
+  std::vector<char> out(grid.z.size(), 0);
+  const auto mark = [&](const geometry::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      each_near(ring[i], ring[(i + 1) % ring.size()], within, grid, [&](std::size_t cell) { out[cell] = 1; });
+  };
+  mark(polygon.outer);
+  for (const auto& hole : polygon.holes) mark(hole);
+  return out;
+}
+
 auto unblurred_of(const Polygon& polygon, const Heights& grid, const Kernel& kernel) -> std::vector<double> {
   const std::size_t stride = grid.columns + 2 * blur_reach;
   std::vector<double> inside(stride * (grid.rows + 2 * blur_reach), 0), sums(inside.size(), 0);
@@ -129,14 +141,16 @@ void add_points(Site& site, std::span<const Measured> points, const Options& opt
   site.of_points = true;
   site.sample_area = options.samples.point_area;
   const Inside inside(site.polygon, site.measured);
+  // The nearest edge is looked for where there is one: no point is farther from its cell's centre than a spacing.
+  const auto beside = cells_near(site.polygon, options.margin + site.measured.spacing, site.measured);
   for (const auto& [place, z] : points) {
     const auto cell = inside(place);
     if (!cell) continue;
     site.cells.push_back(*cell);
     site.places.push_back(place);
     site.z.push_back(z);
-    site.weight.push_back(
-        geometry::boundary_distance(site.polygon, place) < options.margin ? options.samples.margin_weight : 1);
+    const bool in_margin = beside[*cell] != 0 && geometry::boundary_distance(site.polygon, place) < options.margin;
+    site.weight.push_back(in_margin ? options.samples.margin_weight : 1);
   }
   site.sorted = site.z;
   std::ranges::sort(site.sorted);
@@ -146,14 +160,7 @@ void add_points(Site& site, std::span<const Measured> points, const Options& opt
 void finish(Site& site, const Options& options) {
   const auto& grid = site.measured;
   site.sample_area = site.cell_area;
-  std::vector<bool> margin(grid.z.size(), false);
-  const auto mark = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      each_near(ring[i], ring[(i + 1) % ring.size()], options.margin, grid,
-                [&](std::size_t cell) { margin[cell] = true; });
-  };
-  mark(site.polygon.outer);
-  for (const auto& hole : site.polygon.holes) mark(hole);
+  const auto margin = cells_near(site.polygon, options.margin, grid);
   const auto count = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return !std::isnan(z); }));
   site.cells.reserve(count);
   site.sorted.reserve(count);
@@ -166,7 +173,7 @@ void finish(Site& site, const Options& options) {
   for (std::size_t row = 0, cell = 0; row < grid.rows; ++row)
     for (std::size_t column = 0; column < grid.columns; ++column, ++cell) {
       if (std::isnan(grid.z[cell])) continue;
-      const double weight = margin[cell] ? options.samples.margin_weight : 1;
+      const double weight = margin[cell] != 0 ? options.samples.margin_weight : 1;
       site.cells.push_back(static_cast<std::uint32_t>(cell));
       site.sorted.push_back(grid.z[cell]);
       site.weight.push_back(weight);

@@ -85,47 +85,67 @@ auto is_over(const model::Solid& solid, const model::Face& face, geometry::Point
   return inside;
 }
 
-/// Beside the edge of a face a point may be over another face than the centre of its cell: one that is seen at a cell
-/// around it. Where it is over none of these, it is taken to be over that of its own cell.
-void see_samples(View& view, const model::Solid& solid, const Site& site) {
-  const auto& grid = site.measured;
+}  // namespace
+
+SampleViews::SampleViews(const model::Solid& solid, const Site& site, View& view)
+    : solid_(solid), site_(site), view_(view) {
   view.z_at.assign(site.cells.size(), std::numeric_limits<double>::quiet_NaN());
   view.face_at.assign(site.cells.size(), 0);
-  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  const auto seen = [&](std::size_t cell) { return std::isnan(view.z[cell]) ? none : view.face[cell]; };
-  std::vector<std::uint32_t> others;
-  for (std::size_t i = 0; i < site.cells.size(); ++i) {
-    const std::size_t cell = site.cells[i], column = cell % grid.columns, row = cell / grid.columns;
-    std::uint32_t face = seen(cell);
-    others.clear();
-    for (std::size_t r = row > 0 ? row - 1 : 0; r <= std::min(row + 1, grid.rows - 1); ++r)
-      for (std::size_t c = column > 0 ? column - 1 : 0; c <= std::min(column + 1, grid.columns - 1); ++c)
-        if (const auto other = seen(r * grid.columns + c);
-            other != face && other != none && std::ranges::find(others, other) == others.end())
-          others.push_back(other);
-    const auto place = site.places[i];
-    if (!others.empty() && (face == none || !is_over(solid, solid.faces[face], place))) {
-      const auto over =
-          std::ranges::find_if(others, [&](std::uint32_t f) { return is_over(solid, solid.faces[f], place); });
-      if (over != others.end()) face = *over;
-      else if (face == none) face = others.front();
-    }
+  seen_.resize(view.z.size());
+  for (std::size_t cell = 0; cell < seen_.size(); ++cell)
+    seen_[cell] = std::isnan(view.z[cell]) ? none : view.face[cell];
+}
+
+auto SampleViews::is_seen_around(std::uint32_t cell, std::uint32_t column, std::uint32_t row) const -> bool {
+  const auto columns = static_cast<std::uint32_t>(site_.measured.columns),
+             rows = static_cast<std::uint32_t>(site_.measured.rows);
+  if (column == 0 || row == 0 || column + 1 == columns || row + 1 == rows) return false;
+  const std::uint32_t *here = &seen_[cell], *before = here - columns, *after = here + columns, face = *here;
+  return face != none && ((here[-1] ^ face) | (here[1] ^ face) | (before[-1] ^ face) | (before[0] ^ face) |
+                          (before[1] ^ face) | (after[-1] ^ face) | (after[0] ^ face) | (after[1] ^ face)) == 0;
+}
+
+auto SampleViews::face_beside(std::uint32_t cell, std::size_t column, std::size_t row, geometry::Point2 place)
+    -> std::uint32_t {
+  const auto& grid = site_.measured;
+  const std::uint32_t face = seen_[cell];
+  others_.clear();
+  for (std::size_t r = row > 0 ? row - 1 : 0; r <= std::min(row + 1, grid.rows - 1); ++r)
+    for (std::size_t c = column > 0 ? column - 1 : 0; c <= std::min(column + 1, grid.columns - 1); ++c)
+      if (const auto other = seen_[r * grid.columns + c];
+          other != face && other != none && std::ranges::find(others_, other) == others_.end())
+        others_.push_back(other);
+  if (others_.empty() || (face != none && is_over(solid_, solid_.faces[face], place))) return face;
+  const auto over =
+      std::ranges::find_if(others_, [&](std::uint32_t f) { return is_over(solid_, solid_.faces[f], place); });
+  if (over != others_.end()) return *over;
+  return face == none ? others_.front() : face;
+}
+
+void SampleViews::see(std::size_t first, std::size_t last) {
+  const auto columns = static_cast<std::uint32_t>(site_.measured.columns);
+  for (std::size_t i = first; i < last; ++i) {
+    const std::uint32_t cell = site_.cells[i], row = cell / columns, column = cell - row * columns;
+    const auto place = site_.places[i];
+    const auto face = is_seen_around(cell, column, row) ? seen_[cell] : face_beside(cell, column, row, place);
     if (face == none) continue;
-    const auto& normal = solid.faces[face].normal;
-    const Point3 at = solid.vertices[solid.faces[face].loops.front().front()];
-    view.face_at[i] = face;
-    view.z_at[i] = at.z - (normal.x * (place.x - at.x) + normal.y * (place.y - at.y)) / normal.z - site.base;
+    const auto& normal = solid_.faces[face].normal;
+    const Point3 at = solid_.vertices[solid_.faces[face].loops.front().front()];
+    view_.face_at[i] = face;
+    view_.z_at[i] = at.z - (normal.x * (place.x - at.x) + normal.y * (place.y - at.y)) / normal.z - site_.base;
   }
 }
 
-}  // namespace
-
-auto view_of(const model::Solid& solid, const Site& site) -> View {
+auto cells_of(const model::Solid& solid, const Site& site) -> View {
   Painter painter(solid, site.measured, site.base);
   for (std::uint32_t f = 0; f < solid.faces.size(); ++f)
     if (solid.faces[f].normal.z > wall_normal) painter.paint(f);
-  View view = std::move(painter).view();
-  if (site.of_points) see_samples(view, solid, site);
+  return std::move(painter).view();
+}
+
+auto view_of(const model::Solid& solid, const Site& site) -> View {
+  View view = cells_of(solid, site);
+  if (site.of_points) SampleViews(solid, site, view).see(0, site.cells.size());
   return view;
 }
 

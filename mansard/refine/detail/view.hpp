@@ -29,7 +29,34 @@ struct View {
   }
 };
 
-/// At the centres of the cells, and at the samples where those are points. Cost: O(faces · rows they span + cells).
+/// At the centres of the cells alone. Cost: O(faces · rows they span + cells).
+[[nodiscard]] auto cells_of(const model::Solid& solid, const Site& site) -> View;
+
+/// What is seen at samples that are points, added to a view of the cells. Beside the edge of a face a point may be over
+/// another face than the centre of its cell: one that is seen at a cell around it. Where it is over none of these, it
+/// is taken to be over that of its own cell.
+class SampleViews {
+ public:
+  SampleViews(const model::Solid& solid, const Site& site, View& view);
+  /// Of the samples [first, last).
+  void see(std::size_t first, std::size_t last);
+
+ private:
+  static constexpr std::uint32_t none = UINT32_MAX;
+
+  /// Whether the face of a cell is that of all eight around it.
+  [[nodiscard]] auto is_seen_around(std::uint32_t cell, std::uint32_t column, std::uint32_t row) const -> bool;
+  [[nodiscard]] auto face_beside(std::uint32_t cell, std::size_t column, std::size_t row, geometry::Point2 place)
+      -> std::uint32_t;
+
+  const model::Solid& solid_;
+  const Site& site_;
+  View& view_;
+  std::vector<std::uint32_t> seen_;    // per cell
+  std::vector<std::uint32_t> others_;  // working memory
+};
+
+/// At the centres of the cells, and at the samples where those are points.
 [[nodiscard]] auto view_of(const model::Solid& solid, const Site& site) -> View;
 
 }  // namespace mansard::refine::detail
