@@ -598,7 +598,7 @@ auto option_list(Options& o) -> base::OptionList {
       .alias("layer")
       .source("none by default");
   list.string("encoding", o.encoding,
-              "Encoding of texts in the vector file that are not UTF-8, as ISO-8859-1; empty for what the file says.")
+              "Encoding of strings in the vector file that are not UTF-8, as ISO-8859-1; empty for what the file says.")
       .alias("encoding")
       .source("none by default");
   list.string(

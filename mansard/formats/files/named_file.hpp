@@ -13,8 +13,8 @@ namespace mansard::formats {
 /// name, not a file. Fails with "file-missing", "file-read".
 [[nodiscard]] auto bytes_of_named(const std::filesystem::path& path) -> base::Result<Bytes>;
 
-/// Waits up to 10 s for a program that writes to a named pipe; anything else passes at once. Without one, opening it would
-/// never end. Fails with "file-read".
+/// Waits up to 10 s for a program that writes to a named pipe; anything else passes at once. Without one, opening it
+/// would never end. Fails with "file-read".
 [[nodiscard]] auto check_pipe(const std::filesystem::path& path) -> base::Result<void>;
 
 /// A picture or a library of materials that `from` names, perhaps with the path of another computer: then the file of

@@ -366,7 +366,7 @@ class Source {
     if (const auto place = first_nul(text->view()))
       out_.warnings.push_back(base::warning(
           "ingest-text",
-          "there are texts with the character U+0000, the first at byte " + std::to_string(*place) +
+          "there are strings with the character U+0000, the first at byte " + std::to_string(*place) +
               "; GDAL reads each up to it: ids can have become the same. Write the file without that character",
           subject_));
     // GDAL complains, and takes degrees instead.
@@ -481,7 +481,7 @@ class Source {
     if (count > 0)
       out_.warnings.push_back(base::warning("ingest-text",
                                             std::to_string(count) +
-                                                " texts of attributes are not UTF-8, the first is " + first +
+                                                " strings of attributes are not UTF-8, the first is " + first +
                                                 "; give their encoding with --ingest-encoding, such as ISO-8859-1, or "
                                                 "characters are lost where models are written",
                                             subject_));
