@@ -1,6 +1,7 @@
-// Files in memory for fuzzers of what reads files: some that stay as they are, and one whose bytes change.
+// Files in memory and on disk for fuzzers of what reads files: some that stay as they are, and one whose bytes change.
 #pragma once
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -37,7 +38,7 @@ class MemoryFile {
 };
 
 /// A folder of names for the changing file and of files that stay, since a file is taken by its name and with those
-/// beside it.
+/// beside it. The names are of one file on disk: a link to memory would lead out of the folder.
 class Folder {
  public:
   explicit Folder(const std::string& name)
@@ -45,8 +46,10 @@ class Folder {
     base::limit_threads(1);  // what a string leads to must not hang on who comes first
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
+    descriptor_ = ::open((path_ / "changing").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   }
   ~Folder() {
+    ::close(descriptor_);
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
@@ -57,14 +60,17 @@ class Folder {
   auto name(const std::string& name) const -> std::filesystem::path {
     const auto path = path_ / name;
     std::filesystem::create_directories(path.parent_path());
-    std::filesystem::create_symlink(file_.path(), path);
+    std::filesystem::create_hard_link(path_ / "changing", path);
     return path;
   }
-  void hold(std::string_view bytes) const { file_.hold(bytes); }
+  void hold(std::string_view bytes) const {
+    promise(::ftruncate(descriptor_, 0) == 0, "no file to change");
+    promise(::pwrite(descriptor_, bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()), "no room");
+  }
 
  private:
   std::filesystem::path path_;
-  MemoryFile file_;
+  int descriptor_ = -1;
 };
 
 /// A module's codes, and those that all modules have in common.

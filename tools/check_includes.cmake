@@ -57,7 +57,7 @@ library(tinyobjloader "^tiny_obj_loader[.]h$")
 set(used_outside CLI11 tomlplusplus nlohmann_json httplib pybind11 fmt assimp openscenegraph)
 set(used_by_tests gtest rapidcheck CGAL nlohmann_json openscenegraph)
 set(used_by_bench benchmark CGAL assimp tinyobjloader)
-set(system_headers "^((unistd|poll|signal|fcntl|termios|fenv|malloc|dlfcn|spawn)[.]h|(sys|netinet|arpa)/[a-z]+[.]h)$")
+set(system_headers "^((unistd|poll|signal|fcntl|termios|fenv|malloc|dlfcn|spawn|iconv)[.]h|(sys|netinet|arpa)/[a-z]+[.]h)$")
 
 # ---- complaints
 set(complaints "")

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Fuzzes the extrusion kernel and what reads files, each for SECONDS, from fuzz/corpus and what earlier runs have found.
-#   tools/fuzz.sh SECONDS [plan_json|extrude|mesh_files|tilesets|models|points]
+#   tools/fuzz.sh SECONDS [plan_json|extrude|mesh_files|tilesets|models|points|references]
 # JOBS is how many sources are compiled at once (2).
 # A failure is made smaller and its path printed; copied into fuzz/corpus/<name>/ it is replayed by every test run.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:?"SECONDS for each fuzzer"}
-targets=(plan_json extrude mesh_files tilesets models points)
+targets=(plan_json extrude mesh_files tilesets models points references)
 [[ $# -lt 2 ]] || targets=("${@:2}")
 
 tools/setup.sh build clang

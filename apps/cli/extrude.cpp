@@ -182,21 +182,21 @@ auto write_out(const model::City& city, const pipeline::Options& options, const 
 }
 
 auto write_out(const Made& made, const model::Scene& scene, const pipeline::Options& options,
-               const ExtrudeRequest& request, const base::Run& run, Progress& progress) -> base::Result<void> {
+               const ExtrudeRequest& request, const base::Run& run, Progress& progress) -> base::Result<Unwritten> {
   const auto targets = targets_of(request);
   if (!targets) return targets.failure();
   base::Outputs outputs;
   std::vector<formats::Layer> layers;
   if (auto overlaps = report::overlaps_layer(made.summary)) layers.push_back(std::move(*overlaps));
-  if (auto written = write_targets(made, *targets, options.write, layers, outputs, run, progress); !written)
-    return written;
+  auto unwritten = write_targets(made, *targets, options.write, layers, outputs, run, progress);
+  if (!unwritten) return unwritten.failure();
   if (auto written = request.terrain.write(made, scene, nullptr, options, outputs, run, progress); !written)
-    return written;
+    return written.failure();
   std::vector<fs::path> reports;
   if (!is_one(request.out)) reports.push_back(fs::path(request.out) / "run.json");
   if (!request.report.empty()) reports.emplace_back(request.report);
   for (const auto& path : reports)
-    if (auto written = write_report(made, scene, path, outputs); !written) return written;
+    if (auto written = write_report(made, scene, path, outputs); !written) return written.failure();
   if (request.picture) {
     model::City city{made.frame, made.made_by, {}};
     auto all = made.each([&](model::Building building, const auto&) -> base::Result<void> {
@@ -204,9 +204,10 @@ auto write_out(const Made& made, const model::Scene& scene, const pipeline::Opti
       return {};
     });
     if (all) all = write_picture(city, request, run, outputs);
-    if (!all) return all;
+    if (!all) return all.failure();
   }
-  return outputs.commit(run.cancel);
+  if (auto committed = outputs.commit(run.cancel); !committed) return committed.failure();
+  return unwritten;
 }
 
 auto extrude_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {

@@ -41,7 +41,7 @@ struct ExtrudeRequest {
 /// in memory.
 [[nodiscard]] auto write_out(const Made& made, const model::Scene& scene, const pipeline::Options& options,
                              const ExtrudeRequest& request, const base::Run& run, Progress& progress)
-    -> base::Result<void>;
+    -> base::Result<Unwritten>;
 
 /// `mansard extrude FOOTPRINTS -o OUT`; the exit code.
 [[nodiscard]] auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cancel) -> int;

@@ -66,10 +66,11 @@ auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cance
   const auto made = made_of(*city);
   for (const auto& warning : made.summary.warnings) progress.say(base::to_string(warning));
   run.report("write", formats::name_to_show(request.out), 1);
-  auto done = write_out(made, *scene, options, request, run, progress);
-  if (done && kept != nullptr) city->tasks > 0 ? kept->finished() : kept->finished_without_kept();
-  if (done) done = summarise(made, city->tasks, request, progress);
-  if (!done) return stopped(done);
+  const auto unwritten = write_out(made, *scene, options, request, run, progress);
+  if (!unwritten) return stopped(unwritten);
+  if (unwritten->why.empty() && kept != nullptr) city->tasks > 0 ? kept->finished() : kept->finished_without_kept();
+  if (auto done = summarise(made, city->tasks, request, progress); !done) return stopped(done);
+  if (!unwritten->why.empty()) return give_up(unwritten->why);
   std::printf("%s\n", formats::name_to_show(request.out).c_str());
   return made.outcomes.full == made.outcomes.all() ? all_done : some_fell_back;
 }

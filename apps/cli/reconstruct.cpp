@@ -104,7 +104,7 @@ auto is_result(const std::string& name) -> bool {
 
 auto write_all(const ReconstructRequest& request, const std::vector<Target>& targets, const pipeline::Options& options,
                const Made& made, const ingest::CityScene& city, const base::Run& run, Progress& progress)
-    -> base::Result<void> {
+    -> base::Result<Unwritten> {
   const auto& scene = city.scene;
   base::Outputs outputs;
   std::vector<formats::Layer> layers;
@@ -120,32 +120,33 @@ auto write_all(const ReconstructRequest& request, const std::vector<Target>& tar
     baked = std::move(*done);
   }
   progress.show("write", "", 1);
-  if (auto written = write_targets(baked.textures ? with_textures(made, *baked.textures) : made, targets, options.write,
-                                   layers, outputs, run, progress);
-      !written)
-    return written;
+  auto unwritten = write_targets(baked.textures ? with_textures(made, *baked.textures) : made, targets, options.write,
+                                 layers, outputs, run, progress);
+  if (!unwritten) return unwritten.failure();
   if (auto written = request.terrain.write(made, scene, city.cells.get(), options, outputs, run, progress); !written)
-    return written;
+    return written.failure();
   const auto report_path = fs::path(request.out) / "run.json";
-  if (auto written = write_report(made, scene, report_path, outputs); !written) return written;
+  if (auto written = write_report(made, scene, report_path, outputs); !written) return written.failure();
   if (!request.scan.report.empty())
-    if (auto written = write_report(made, scene, request.scan.report, outputs); !written) return written;
+    if (auto written = write_report(made, scene, request.scan.report, outputs); !written) return written.failure();
   if (request.picture) {
     progress.show("picture", "", 1);
-    if (auto written = write_pictures(request, options, made, baked, city, run, outputs); !written) return written;
+    if (auto written = write_pictures(request, options, made, baked, city, run, outputs); !written)
+      return written.failure();
   }
   const auto left = leftovers(request.out, "run.json", is_result);
-  if (auto written = outputs.commit(run.cancel); !written) return written;
+  if (auto written = outputs.commit(run.cancel); !written) return written.failure();
   std::vector<fs::path> results{report_path};
-  for (const auto& target : targets)
+  for (const auto& target : targets) {
+    if (std::ranges::find(unwritten->files, target.path) != unwritten->files.end()) continue;
     for (const auto& place : places_of(target)) results.push_back(place);
-  if (options.texture.bake)
-    for (const auto& target : targets)
+    if (options.texture.bake)
       if (const auto folder = formats::textures_of(target)) results.push_back(*folder);
+  }
   if (request.picture)
     for (const auto* name : picture_names) results.push_back(fs::path(request.out) / name);
   remove_stale(left, results);
-  return {};
+  return unwritten;
 }
 
 /// Everything that can be wrong with the outputs, before any work.
@@ -222,10 +223,11 @@ auto reconstruct(const ReconstructRequest& request, const base::Cancel& cancel) 
     return all_done;
   }
   const auto finish = [&](const Made& made) -> int {
-    auto done = write_all(request, *targets, *options, made, *city, run, progress);
-    if (done) (*folder)->finished();
-    if (done) done = summarise(made, request, progress);
-    if (!done) return stopped(done);
+    const auto unwritten = write_all(request, *targets, *options, made, *city, run, progress);
+    if (!unwritten) return stopped(unwritten);
+    if (unwritten->why.empty()) (*folder)->finished();
+    if (auto done = summarise(made, request, progress); !done) return stopped(done);
+    if (!unwritten->why.empty()) return give_up(unwritten->why);
     std::printf("%s\n", targets->front().path.c_str());
     if (request.picture) std::printf("%s\n", (fs::path(request.out) / "picture.png").c_str());
     if (request.layers) std::printf("%s\n", (fs::path(request.out) / "model.gpkg").c_str());

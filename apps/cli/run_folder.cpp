@@ -140,6 +140,11 @@ auto RunFolder::open(const fs::path& out, const std::string& verb, Use use)
     -> base::Result<std::unique_ptr<RunFolder>> {
   const auto folder = place_in(out, use == Use::file);
   std::error_code failure;
+  // Files are removed in it: what a link leads to is not this run's.
+  for (const auto& own : {folder, folder / blocks_name, folder / lock_name, folder / status_name})
+    if (fs::is_symlink(own, failure))
+      return base::error("file-write", "this is a link, and a run keeps its work in its output only; remove the link",
+                         own.string());
   fs::create_directory(folder, failure);
   const auto unusable = [&](const std::string& why) {
     return base::error("file-write", "cannot write to this folder: " + why + "; choose a path with write permission",

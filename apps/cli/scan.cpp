@@ -169,7 +169,8 @@ auto explained(base::Failure failure, const ScanRequest& request, const pipeline
   const auto placing = pipeline::find_placing(paths_of(request), options, run);
   if (!placing || !*placing) return failure;
   why.message.resize(why.message.size() - asks.size());
-  const auto more = pipeline::options_in_words(**placing, options);
+  auto more = pipeline::options_in_words(**placing, options);
+  if (more.empty()) more = "--crs local";  // they match by their numbers alone
   // What is given already is replaced: an option is given once.
   std::vector<std::string> replaced;
   if (more.find("--crs") != std::string::npos) replaced.emplace_back("ingest.crs");

@@ -117,8 +117,11 @@ class Outputs::File : public Sink {
   int failure_ = 0;
 };
 
-Outputs::~Outputs() {
-  for (auto& entry : entries_) {
+Outputs::~Outputs() { take_away(0); }
+
+void Outputs::take_away(std::size_t after) {
+  for (; entries_.size() > after; entries_.pop_back()) {
+    auto& entry = entries_.back();
     entry.sink.reset();
     std::error_code ignored;
     fs::remove_all(entry.beside, ignored);

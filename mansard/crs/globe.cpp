@@ -84,7 +84,9 @@ auto Globe::of(const model::Frame& frame) -> base::Result<std::optional<Globe>> 
   if (frame.crs.empty()) return std::optional<Globe>();
   const Quiet quiet;
   OGRSpatialReference from;
-  if (from.SetFromUserInput(frame.crs.c_str()) != OGRERR_NONE) return no_way(frame.crs);
+  if (from.SetFromUserInput(frame.crs.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
+      OGRERR_NONE)
+    return no_way(frame.crs);
   Globe globe;
   globe.frame_ = frame;
   globe.projection_ = std::make_shared<Projection>();

@@ -6,6 +6,7 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/crs/gdal_messages.hpp"
+#include "mansard/crs/spatial_reference.hpp"
 
 namespace mansard::crs {
 namespace {
@@ -35,7 +36,8 @@ auto plane_crs(const std::string& spelt, const std::string& subject) -> base::Re
   const auto words = without_address(spelt);
   const auto crs = known(words);
   if (!crs)
-    return base::error("ingest-model-crs", "the CRS '" + spelt + "' is not known; correct it, or say --crs local",
+    return base::error("ingest-model-crs",
+                       "the CRS '" + spelt + "' is not known" + hint_for(spelt) + "; correct it, or say --crs local",
                        subject);
   if (crs->IsProjected() == 0 || std::abs(crs->GetLinearUnits() - 1) > 1e-9)
     return base::error("ingest-model-crs",

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "mansard/base/text.hpp"
+
 namespace mansard::crs {
 namespace {
 
@@ -62,16 +64,58 @@ auto without_code(const OGRSpatialReference& system, const std::string& code) ->
 
 auto from_wkt(const std::string& wkt) -> std::optional<Crs> {
   Crs crs;
-  if (crs.system.importFromWkt(wkt.c_str()) != OGRERR_NONE) return std::nullopt;
+  if (crs.system.importFromWkt(wkt.c_str()) != OGRERR_NONE || grid_elsewhere(crs.system)) return std::nullopt;
   return crs;
 }
 
 auto from_words(const std::string& words) -> std::optional<Crs> {
   Crs crs;
   if (crs.system.SetFromUserInput(words.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
-      OGRERR_NONE)
+          OGRERR_NONE ||
+      grid_elsewhere(crs.system))
     return std::nullopt;
   return crs;
+}
+
+auto number_of_name(const std::string& name) -> std::optional<std::string> {
+  int count = 0;
+  OSRCRSInfo** all = OSRGetCRSInfoListFromDatabase("EPSG", nullptr, &count);
+  std::optional<std::string> found;
+  bool several = false;
+  for (int i = 0; i < count; ++i) {
+    const OSRCRSInfo& one = *all[i];
+    if (one.eType != OSR_CRS_TYPE_PROJECTED || one.bDeprecated != 0 || base::lower(one.pszName) != base::lower(name))
+      continue;
+    several = found.has_value();
+    found = "EPSG:" + std::string(one.pszCode);
+  }
+  OSRDestroyCRSInfoList(all);
+  return several ? std::nullopt : found;
+}
+
+auto hint_for(const std::string& name) -> std::string {
+  const auto number = number_of_name(name);
+  return number ? "; " + *number + " has this name" : std::string();
+}
+
+auto grid_elsewhere(const OGRSpatialReference& system) -> std::optional<std::string> {
+  // WKT: PARAMETERFILE["Latitude and longitude difference file","grid.gsb"], or EXTENSION["PROJ4","+nadgrids=…"].
+  const auto wkt = wkt_of(system);
+  const auto reaches = [](std::string_view grids) {
+    return grids.find('/') != grids.npos || grids.find('\\') != grids.npos;
+  };
+  for (auto at = wkt.find("PARAMETERFILE["); at != wkt.npos; at = wkt.find("PARAMETERFILE[", at + 1)) {
+    const auto from = wkt.find("\",\"", at);
+    const auto end = from == wkt.npos ? from : wkt.find('"', from + 3);
+    if (end == wkt.npos) break;
+    if (auto grids = wkt.substr(from + 3, end - from - 3); reaches(grids)) return grids;
+  }
+  for (const std::string_view key : {"grids=", "+init=", "+file="})
+    for (auto at = wkt.find(key); at != wkt.npos; at = wkt.find(key, at + 1)) {
+      const auto from = at + key.size();
+      if (auto grids = wkt.substr(from, wkt.find_first_of(" \"", from) - from); reaches(grids)) return grids;
+    }
+  return std::nullopt;
 }
 
 auto wkt_of(const OGRSpatialReference& system) -> std::string {
@@ -111,8 +155,10 @@ auto title_of(const OGRSpatialReference& system) -> std::string {
 auto wanted_crs(const std::string& option) -> base::Result<Crs> {
   auto crs = from_words(option);
   if (!crs)
-    return base::error("ingest-crs-option",
-                       "'" + option + "' is not a known CRS; write EPSG:28992, a WKT text, or local", "ingest.crs");
+    return base::error(
+        "ingest-crs-option",
+        "'" + option + "' is not a known CRS" + hint_for(option) + "; write EPSG:n, a WKT text, or local",
+        "ingest.crs");
   if (crs->system.IsProjected() == 0 || !in_metres(crs->system))
     return base::error("ingest-crs-option",
                        "'" + option + "' (" + title_of(crs->system) + ") is not a projected CRS in metres; give one",

@@ -18,8 +18,17 @@ struct Crs {
 };
 
 [[nodiscard]] auto from_wkt(const std::string& wkt) -> std::optional<Crs>;
-/// "EPSG:n", "EPSG:n+m", WKT, and what else PROJ reads without the network.
+/// "EPSG:n", "EPSG:n+m", WKT, and what else PROJ reads without the network; none where it names a grid by a path or an
+/// address, which a file must not make PROJ open.
 [[nodiscard]] auto from_words(const std::string& words) -> std::optional<Crs>;
+/// The register's number of a projected CRS that has this name, "EPSG:28992" for "Amersfoort / RD New"; none where none
+/// has, or several.
+[[nodiscard]] auto number_of_name(const std::string& name) -> std::optional<std::string>;
+/// What to say of words that name no known CRS: "; EPSG:28992 has this name", or nothing.
+[[nodiscard]] auto hint_for(const std::string& name) -> std::string;
+/// A grid that a CRS names by a path or an address; none where there is no such grid. Grids by name alone are looked
+/// for in PROJ's own folders.
+[[nodiscard]] auto grid_elsewhere(const OGRSpatialReference& system) -> std::optional<std::string>;
 [[nodiscard]] auto wkt_of(const OGRSpatialReference& system) -> std::string;
 /// "EPSG:n" as the CRS says, where the register agrees, or as the register recognises it, else its WKT.
 [[nodiscard]] auto name_of(const OGRSpatialReference& system) -> std::string;

@@ -6,6 +6,8 @@ auto codes() -> std::vector<base::Code> {
   return {
       {"write-duplicate-id", "Two buildings have the same id, so a city model cannot distinguish them.",
        "Name an attribute that is unique with --ingest-id-attribute.", 3},
+      {"write-columns", "There are more attributes than a table can have columns.",
+       "Nothing to do: the others are in one column, as JSON. --attributes chooses those that are written.", 0},
       {"write-model", "A model that was to be written is broken: a coordinate that is not finite, a missing vertex.",
        "This is a bug: please report it with the input.", 70},
       {"write-triangulate", "A face of a model could not be cut into triangles for OBJ or GLB.",

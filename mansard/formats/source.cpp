@@ -58,8 +58,9 @@ auto layer_of(OGRLayer& layer) -> SourceLayer {
 auto vector_source(const fs::path& path) -> base::Result<VectorSource> {
   if (path.string().find(':') == std::string::npos && !is_there(path)) return why_missing(path);
   const crs::GdalMessages messages;
-  const Offline offline(path);  // layers of some formats are opened when they are asked for
+  const Confined confined(path);  // layers of some formats are opened when they are asked for
   const auto dataset = open(path, GDAL_OF_VECTOR);
+  if (auto done = confined.check(); !done) return done.error();
   if (!dataset)
     return base::error("ingest-footprints-format",
                        "not a readable vector file (" + messages.failure() + "); check what it is", path.string());
@@ -67,6 +68,7 @@ auto vector_source(const fs::path& path) -> base::Result<VectorSource> {
   out.driver = dataset->GetDriverName();
   for (auto* layer : dataset->GetLayers()) {
     auto& one = out.layers.emplace_back(layer_of(*layer));
+    if (auto done = confined.check(); !done) return done.error();
     // Degrees are only GDAL's guess where a GeoJSON names no CRS; reading it makes nothing of them beyond the earth.
     const auto& box = one.extent;
     if (out.driver == "GeoJSON" && one.crs == "EPSG:4326" && box &&
@@ -79,8 +81,9 @@ auto vector_source(const fs::path& path) -> base::Result<VectorSource> {
 auto raster_source(const fs::path& path) -> base::Result<RasterSource> {
   if (!is_there(path)) return why_missing(path);
   const crs::GdalMessages messages;
-  const Offline offline(path);
+  const Confined confined(path);
   const auto dataset = open(path, GDAL_OF_RASTER);
+  if (auto done = confined.check(); !done) return done.error();
   if (!dataset)
     return base::error("ingest-raster", "not a readable raster (" + messages.failure() + "); check what it is",
                        path.string());

@@ -22,6 +22,11 @@ struct ImageSource {
   std::filesystem::path path;                  ///< of the picture, or of the file that contains it
   std::shared_ptr<const std::string> bytes{};  ///< of an embedded one; none: to be read from `path`
   std::string name;                            ///< for messages
+  std::optional<base::Diagnostic> refused{};   ///< why it must not be opened
+
+  /// The picture that `from` names, which is the input `given` or belongs to it.
+  [[nodiscard]] static auto beside(const std::filesystem::path& given, const std::filesystem::path& from,
+                                   const std::string& name) -> ImageSource;
 };
 
 /// What is beyond the border of a picture.

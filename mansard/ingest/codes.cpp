@@ -143,6 +143,14 @@ auto own_codes() -> std::vector<base::Code> {
        "Nothing to do, unless the heights are in another one; gdal_translate -b chooses.", 0},
       {"ingest-attribute-range", "Integer attributes are at the limit of 64 bits, where GDAL puts larger ones.",
        "Write integers beyond 2^63 as strings in the source.", 0},
+      {"ingest-encoding", "The encoding that --ingest-encoding names is not known here.",
+       "Write one of those that 'iconv -l' lists, such as ISO-8859-1 or CP1252.", 4},
+      {"ingest-text", "Strings of attributes are not UTF-8, or have the character U+0000, up to which GDAL reads them.",
+       "Give their encoding with --ingest-encoding, or write the source again in UTF-8.", 0},
+      {"ingest-id-characters",
+       "Ids have bytes that are not UTF-8, or control characters. Not every format can hold them, so each became "
+       "U+FFFD.",
+       "Give the encoding of the strings with --ingest-encoding, or another attribute with --ingest-id-attribute.", 0},
       {"ingest-id-duplicate",
        "Features lack an id, or share one. Ids stay as given: a feature with the id of an earlier one gets ~2, ~3 … "
        "appended.",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <new>
 #include <utility>
 
@@ -43,18 +44,21 @@ auto in_words(const Box2& box) -> std::string {
 struct Chosen {
   formats::FeatureFile file;
   std::vector<std::string> ids;
+  std::map<std::string, std::string> part_prefixes;  ///< by id, where they are not the usual ones
   std::vector<bool> wanted;
 };
 
 auto read_chosen(const std::filesystem::path& path, const Options& options, const base::Run& run)
     -> base::Result<Chosen> {
   // What does not pass the filter is still around what does.
-  auto file = formats::read_features(path, {options.layer, options.where, true, options.crs, options.bbox}, run);
+  auto file = formats::read_features(
+      path, {options.layer, options.where, true, options.crs, options.bbox, options.encoding}, run);
   if (!file) return file.failure();
   // Before any is left out: of ids that are there twice, what a selection calls them is what the whole file calls them.
   auto ids = formats::ids_of(file->features, options.id_attribute, formats::shown_name(path), file->warnings);
   if (!ids) return ids.failure();
-  Chosen out{std::move(*file), std::move(*ids), {}};
+  Chosen out{std::move(*file), std::move(*ids), {}, {}};
+  out.part_prefixes = formats::part_prefixes_of(out.ids);
   for (const auto& feature : out.file.features) out.wanted.push_back(feature.passes);
   return out;
 }
@@ -189,6 +193,8 @@ void finish_all(Chosen& chosen, const Box2& mesh, model::Scene& scene) {
     });
     for (std::size_t i = 0; i < finished.size(); ++i) {
       auto& one = finished[i];
+      if (const auto found = chosen.part_prefixes.find(one.footprint.id); found != chosen.part_prefixes.end())
+        one.footprint.part_prefix = found->second;
       const bool asked = chosen.wanted[first + i];
       if (asked && one.warning) scene.warnings.push_back(std::move(*one.warning));
       (asked ? scene.footprints : scene.surroundings).push_back(std::move(one.footprint));
@@ -590,6 +596,10 @@ auto option_list(Options& o) -> base::OptionList {
       .source("none by default");
   list.string("layer", o.layer, "Layer of the vector file; empty for its first one with polygons.")
       .alias("layer")
+      .source("none by default");
+  list.string("encoding", o.encoding,
+              "Encoding of strings in the vector file that are not UTF-8, as ISO-8859-1; empty for what the file says.")
+      .alias("encoding")
       .source("none by default");
   list.string(
           "where", o.where,

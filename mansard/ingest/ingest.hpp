@@ -30,6 +30,7 @@ struct Options {
   std::string id_attribute;  ///< empty: gml_id, id, fid … whichever the source has, else its feature number
   std::string layer;         ///< of the vector source; empty: its only or first one
   std::string where;         ///< OGR SQL attribute filter
+  std::string encoding;      ///< of texts that are not UTF-8, as iconv names it; empty: what the source says
   /// xmin ymin xmax ymax in the working CRS: footprints whose box meets it, and the mesh around them; all zero:
   /// everything.
   std::array<double, 4> bbox{0, 0, 0, 0};

@@ -14,6 +14,7 @@
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_frame.hpp"
 #include "mansard/crs/gdal_messages.hpp"
+#include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/vector/attributes.hpp"
 
 namespace mansard::ingest {
@@ -86,8 +87,10 @@ auto join(model::Scene& scene, const std::filesystem::path& table, const std::st
   std::error_code status;
   if (!std::filesystem::exists(table, status))
     return base::error("ingest-join-table", "there is no such file; check the path", table.string());
+  const formats::Confined confined(table);
   const GDALDatasetUniquePtr file(GDALDataset::Open(table.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   OGRLayer* layer = file ? layer_with(*file, key) : nullptr;
+  if (auto done = confined.check(); !done) return done.error();
   if (layer == nullptr)
     return base::error("ingest-join-table",
                        "GDAL reads no table in this file" + crs::gdal_words() +
@@ -114,6 +117,7 @@ auto join(model::Scene& scene, const std::filesystem::path& table, const std::st
     std::erase_if(attributes, [&](const auto& one) { return one.first == key_name; });
     if (!rows.try_emplace(id, Row{std::move(attributes), false}).second) twice.push_back(id);
   }
+  if (auto done = confined.check(); !done) return done.error();
   if (std::string_view(file->GetDriverName()) == "CSV") find_numbers(rows);
   if (CPLGetLastErrorType() >= CE_Failure)
     return base::error("ingest-join-table", "the table cannot be read to its end" + crs::gdal_words(), table.string());

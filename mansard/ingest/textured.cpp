@@ -15,7 +15,7 @@ auto MeshReading::each_textured(const std::vector<std::filesystem::path>& paths,
                                 const base::Run& run) -> base::Result<std::vector<base::Diagnostic>> {
   MeshReading reading(options, nullptr);
   if (auto done = reading.list(paths); !done) return done.error();
-  if (auto done = reading.find_places(); !done) return done.error();
+  if (auto done = reading.find_places(run); !done) return done.error();
   if (auto done = reading.choose_ways(working); !done) return done.error();
   const geometry::Point2 offset{options.mesh_offset[0], options.mesh_offset[1]};
   const geometry::Box2 raw{within.least - offset, within.most - offset};

@@ -24,6 +24,13 @@ struct Footprint {
   /// Minimum z of its outline, m, in the same; none where it is drawn in two dimensions. That may be the ground or a
   /// roof.
   std::optional<double> outline_z = std::nullopt;
+  /// What the names of its parts begin with, where "id-" would make one that another footprint has; else empty.
+  std::string part_prefix = {};
+
+  /// The name of its part `number`, from 1.
+  [[nodiscard]] auto part_id(std::size_t number) const -> std::string {
+    return (part_prefix.empty() ? id + "-" : part_prefix) + std::to_string(number);
+  }
 };
 
 }  // namespace mansard::model

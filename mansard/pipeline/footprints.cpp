@@ -167,7 +167,8 @@ auto attributes_of(const model::LabelledSolid& model, const Raising& job, const 
 }
 
 /// Adds a part to its building and to the building's report.
-void take(Raising job, model::LabelledSolid model, model::Building& building, report::BuildingReport& report) {
+void take(Raising job, model::LabelledSolid model, const model::Footprint& footprint, model::Building& building,
+          report::BuildingReport& report) {
   auto attributes = attributes_of(model, job, report);
   const double low = eaves_of(model), high = report::top_of(model.solid);
   report.roof_min = report.parts == 0 ? low : std::min(report.roof_min, low);
@@ -175,8 +176,8 @@ void take(Raising job, model::LabelledSolid model, model::Building& building, re
   ++report.parts;
   report.volume += solid::volume(model.solid);
   detail::add(report.areas, label::areas(model));
-  building.parts.push_back({building.id + "-" + std::to_string(report.parts), std::move(job.planned.plan),
-                            std::move(model), std::move(attributes)});
+  building.parts.push_back(
+      {footprint.part_id(report.parts), std::move(job.planned.plan), std::move(model), std::move(attributes)});
 }
 
 /// Buildings and reports, still without parts.
@@ -338,12 +339,13 @@ auto raise_all(const model::Scene& scene, const Making& making, const Options& o
   out.buildings.resize(read.size());
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     auto& job = jobs[i];
-    auto& report = out.buildings[job.feature];
+    const std::size_t feature = job.feature;
+    auto& report = out.buildings[feature];
     add_all(report.reasons, job.reasons);
     if (!job.full) report.outcome = report::Outcome::fallback;
     if (by_attributes && report.roof.empty()) report.roof = roof::to_string(job.planned.shape);
-    auto& building = out.city.buildings[job.feature];
-    if (auto& model = models[i]) take(std::move(job), *std::move(model), building, report);
+    auto& building = out.city.buildings[feature];
+    if (auto& model = models[i]) take(std::move(job), *std::move(model), scene.feature(feature), building, report);
   }
   auto united = unite_parts(out.city.buildings);
   for (std::size_t b = 0; b < united.size(); ++b)

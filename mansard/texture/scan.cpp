@@ -57,7 +57,7 @@ auto Scan::number_of(const formats::TextureMaterial& material) -> std::uint32_t 
     image = known->second;
   } else {
     image = static_cast<std::uint32_t>(images_.size());
-    Image& added = images_.emplace_back(Image{path, source.name, 0, 0, source.bytes != nullptr});
+    Image& added = images_.emplace_back(Image{path, source.name, 0, 0, source.bytes != nullptr, source.refused});
     if (source.bytes) {
       added.offset = pictures_->size();
       added.bytes = source.bytes->size();
@@ -180,6 +180,7 @@ auto Scan::decode(const Image& image) const -> base::Result<model::Pixels> {
     if (!bytes) return bytes.failure();
     return formats::decode_image(*bytes, image.name);
   }
+  if (image.refused) return base::error("texture-outside", image.refused->message, image.refused->subject);
   auto pixels = formats::read_image(image.path);
   if (!pixels && pixels.error().code == "file-missing")
     return base::error("texture-missing", "the picture is missing; copy it beside the mesh", image.name);

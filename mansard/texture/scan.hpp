@@ -86,6 +86,7 @@ class Scan {
     std::uint64_t offset = 0;
     std::size_t bytes = 0;  ///< in the file of images; 0: in a file of its own
     bool embedded = false;
+    std::optional<base::Diagnostic> refused{};
   };
   struct Decoded {
     std::shared_ptr<const model::Pixels> pixels;

@@ -311,6 +311,10 @@ auto codes() -> std::vector<base::Code> {
   return {
       {"texture-missing", "A picture, or a library of materials, that a mesh names is missing.",
        "Copy it to where the mesh names it. Faces that only it shows get the mean colour of the building.", 0},
+      {"texture-outside", "A mesh names a picture, or a library of materials, that is not in its folder.",
+       "Copy it into the folder of the mesh, or set the environment variable MANSARD_OUTSIDE=yes if the mesh is to be "
+       "trusted.",
+       0},
       {"texture-image", "A picture on a mesh cannot be read: it is damaged, too large or of a kind that is not read.",
        "Export the mesh with JPEG, PNG or WebP textures; KTX2 is not read.", 0},
       {"texture-none",

@@ -209,11 +209,11 @@ TEST_F(Frames, coordinates_come_back_bit_for_bit) {
 }
 
 TEST(Geojson, finds_the_crs_member_only_at_the_top) {
-  EXPECT_TRUE(formats::has_top_level_member(R"({ "type" : "x", "crs" : {"a":1} })", "crs"));
-  EXPECT_FALSE(formats::has_top_level_member(R"({"type":"x","crs": null})", "crs"));
-  EXPECT_FALSE(formats::has_top_level_member(R"({"name":"crs","features":[{"crs":{}}]})", "crs"));
-  EXPECT_FALSE(formats::has_top_level_member(R"({"a":"\",\"crs\":{}"})", "crs"));
-  EXPECT_FALSE(formats::has_top_level_member(R"({"crs)", "crs"));
+  EXPECT_TRUE(formats::top_level_member(R"({ "type" : "x", "crs" : {"a":1} })", "crs"));
+  EXPECT_FALSE(formats::top_level_member(R"({"type":"x","crs": null})", "crs"));
+  EXPECT_FALSE(formats::top_level_member(R"({"name":"crs","features":[{"crs":{}}]})", "crs"));
+  EXPECT_FALSE(formats::top_level_member(R"({"a":"\",\"crs\":{}"})", "crs"));
+  EXPECT_FALSE(formats::top_level_member(R"({"crs)", "crs"));
 }
 
 TEST_F(Frames, options_are_set_by_name) {

@@ -1,13 +1,9 @@
 // Files that refer to others outside their folder, or to servers.
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 #include <cstdlib>
 
 #include "ingest/gltf_workshop.hpp"
+#include "ingest/watched.hpp"
 #include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/source.hpp"
 #include "mansard/ingest/model.hpp"
@@ -16,33 +12,6 @@ namespace mansard::ingest::test {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// A port of this machine that counts who calls, and answers nobody.
-class Listening {
- public:
-  Listening() : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    auto* at = reinterpret_cast<sockaddr*>(&address);
-    EXPECT_EQ(::bind(socket_, at, size), 0);
-    EXPECT_EQ(::listen(socket_, 16), 0);
-    EXPECT_EQ(::getsockname(socket_, at, &size), 0);
-    port_ = ntohs(address.sin_port);
-  }
-  Listening(const Listening&) = delete;
-  auto operator=(const Listening&) -> Listening& = delete;
-  ~Listening() { ::close(socket_); }
-  [[nodiscard]] auto address() const -> std::string { return "http://127.0.0.1:" + std::to_string(port_); }
-  [[nodiscard]] auto called() const -> bool {
-    pollfd one{socket_, POLLIN, 0};
-    return ::poll(&one, 1, 0) > 0;
-  }
-
- private:
-  int socket_, port_ = 0;
-};
 
 class Outside : public Workshop {
  protected:

@@ -183,9 +183,21 @@ class CityGmlWriter : public CityWriter, private TextureQueue {
     return {};
   }
 
+  /// "_", letters, and perhaps digits at its end.
+  static auto is_like_ours(const std::string& id) -> bool {
+    const auto from = id.rfind('_');
+    if (from == id.npos) return false;
+    const auto word = std::string_view(id).substr(from + 1);
+    const auto kind = word.substr(0, word.find_last_not_of("0123456789") + 1);
+    static constexpr std::array<std::string_view, 12> kinds{"app", "c", "f", "lod",   "m",     "n",
+                                                            "p",   "r", "s", "shell", "solid", "t"};
+    return std::ranges::find(kinds, kind) != kinds.end();
+  }
+
   auto unique_id(const std::string& name) -> std::string {
     std::string id = xml_id(name);
-    if (id != name) id += "_n" + std::to_string(renamed_++);  // two names may become one
+    // Two names may become one, and one may be like those that are made of another: "a_lod0", "a_s1_p", "a_n3".
+    if (id != name || is_like_ours(id)) id += "_n" + std::to_string(renamed_++);
     return id;
   }
 

@@ -13,8 +13,13 @@ namespace mansard::formats {
 /// name, not a file. Fails with "file-missing", "file-read".
 [[nodiscard]] auto bytes_of_named(const std::filesystem::path& path) -> base::Result<Bytes>;
 
-/// A file that another one in `folder` names, perhaps with the path of another computer: then that of the same name in
-/// `folder`.
-[[nodiscard]] auto named_beside(const std::filesystem::path& folder, std::string name) -> std::filesystem::path;
+/// Waits up to 10 s for a program that writes to a named pipe; anything else passes at once. Without one, opening it
+/// would never end. Fails with "file-read".
+[[nodiscard]] auto check_pipe(const std::filesystem::path& path) -> base::Result<void>;
+
+/// A picture or a library of materials that `from` names, perhaps with the path of another computer: then the file of
+/// the same name beside `from`. Fails as check_reach(given, …), where nothing was opened.
+[[nodiscard]] auto named_beside(const std::filesystem::path& given, const std::filesystem::path& from, std::string name)
+    -> base::Result<std::filesystem::path>;
 
 }  // namespace mansard::formats

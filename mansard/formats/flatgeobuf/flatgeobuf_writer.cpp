@@ -26,6 +26,11 @@ class FlatGeobufWriter : public CityWriter {
     return {};
   }
 
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override {
+    const auto some = columns_.warning("buildings");
+    return some ? std::vector{*some} : std::vector<base::Diagnostic>();
+  }
+
   auto finish() -> base::Result<void> override {
     const GeopackageManners manners;
     // GDAL's writer wants a name with this extension, and makes folders of others.

@@ -5,6 +5,7 @@
 #include "mansard/formats/detail/flat_level.hpp"
 #include "mansard/formats/detail/records.hpp"
 #include "mansard/formats/detail/writers.hpp"
+#include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/foreign.hpp"
 #include "mansard/formats/geopackage/city_tables.hpp"
 #include "mansard/formats/geopackage/geopackage_tables.hpp"
@@ -92,7 +93,12 @@ class GeoPackageWriter : public CityWriter {
     return add_row(records_table, {record_building, building.id, record});
   }
 
-  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override { return warnings_; }
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override {
+    auto all = warnings_;
+    for (const auto* columns : {&gis_columns_, &part_columns_})
+      if (auto some = columns->warning("model.gpkg")) all.push_back(std::move(*some));
+    return all;
+  }
 
   auto finish() -> base::Result<void> override {
     const GeopackageManners manners;
@@ -373,6 +379,7 @@ auto geopackage_reader(const Path& path) -> ReaderResult {
     return base::error("file-missing", "no such file; check the path", path.string());
   crs::register_gdal();
   const GeopackageManners manners;
+  const Confined confined(path);
   GDALDatasetUniquePtr file(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   if (!file)
     return base::error("write-read-format",

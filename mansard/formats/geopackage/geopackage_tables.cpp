@@ -6,10 +6,21 @@
 #include <set>
 
 #include "mansard/base/text.hpp"
+#include "mansard/formats/detail/parts.hpp"
+#include "mansard/formats/json/json_text.hpp"
 #include "mansard/geometry/change.hpp"
 
 namespace mansard::formats::detail {
 namespace {
+
+constexpr const char* other_attributes = "other_attributes";
+
+auto attributes_json(const model::Attributes& attributes) -> std::string {
+  JsonText json;
+  append_attributes(json.begin_object(), attributes);
+  json.end_object();
+  return json.take();
+}
 
 auto geometry_type(Shape shape) -> OGRwkbGeometryType {
   switch (shape) {
@@ -242,18 +253,38 @@ void AttributeColumns::add(const model::Attributes& attributes) {
 
 auto AttributeColumns::fields() const -> std::vector<Field> {
   std::vector<Field> fields;
-  for (const auto& [name, type] : columns_) fields.push_back({name, type.value_or(FieldType::string)});
+  for (const auto& [name, type] : columns_) {
+    if (fields.size() == most) break;
+    fields.push_back({name, type.value_or(FieldType::string)});
+  }
+  if (columns_.size() > most) fields.push_back({other_attributes, FieldType::string});
   return fields;
 }
 
 auto AttributeColumns::values(const model::Attributes& attributes) const -> std::vector<model::Value> {
-  std::vector<model::Value> values(columns_.size());
+  std::vector<model::Value> values(std::min(columns_.size(), most + 1));
+  model::Attributes others;
   for (const auto& [name, value] : attributes) {
     const auto at = number_.find(name);
     if (at == number_.end()) continue;
+    if (at->second >= most) {
+      others.emplace_back(name, value);
+      continue;
+    }
     values[at->second] = columns_[at->second].type == FieldType::string ? as_text(value) : value;
   }
+  if (!others.empty()) values[most] = attributes_json(others);
   return values;
+}
+
+auto AttributeColumns::warning(const std::string& subject) const -> std::optional<base::Diagnostic> {
+  if (columns_.size() <= most) return std::nullopt;
+  return base::warning("write-columns",
+                       "there are " + std::to_string(columns_.size()) + " attributes, and a table has at most " +
+                           std::to_string(most) + " columns for them; the others, from '" + columns_[most].name +
+                           "' on, are together in the column '" + other_attributes +
+                           "' as JSON. --attributes chooses those that are written",
+                       subject);
 }
 
 }  // namespace mansard::formats::detail

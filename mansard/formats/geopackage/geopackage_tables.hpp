@@ -94,13 +94,20 @@ class GeopackageTable {
 [[nodiscard]] auto read_layer(OGRLayer& table, const model::Frame& frame) -> base::Result<Layer>;
 
 /// Columns for attributes that come object by object: those of any object, in the order of their first appearance.
-/// Whole and real numbers under one name make real ones, any other mixture texts.
+/// Whole and real numbers under one name make real ones, any other mixture texts. Beyond `most` of them, those that
+/// came last are together in one column, as JSON: a table has no more columns than its format allows.
 class AttributeColumns {
  public:
+  /// SQLite allows 2,000 (https://www.sqlite.org/limits.html, SQLITE_MAX_COLUMN), PostgreSQL 1,600
+  /// (https://www.postgresql.org/docs/current/limits.html); the tables have less than 100 of their own.
+  static constexpr std::size_t most = 1500;
+
   void add(const model::Attributes& attributes);
   [[nodiscard]] auto fields() const -> std::vector<Field>;
   /// A value per column: the last of a name, absent where there is none.
   [[nodiscard]] auto values(const model::Attributes& attributes) const -> std::vector<model::Value>;
+  /// Which of them are in the column of all others; none where there is no such column.
+  [[nodiscard]] auto warning(const std::string& subject) const -> std::optional<base::Diagnostic>;
 
  private:
   struct Column {

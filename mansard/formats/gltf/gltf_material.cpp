@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "mansard/base/text.hpp"
-#include "mansard/formats/files/reach.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -95,10 +94,7 @@ auto image_source(const tinygltf::Model& model, int number, const std::string& f
   } else if (!image->image.empty()) {
     out.bytes = std::make_shared<const std::string>(image->image.begin(), image->image.end());
   } else if (!image->uri.empty()) {
-    out.path = std::filesystem::path(file).parent_path() / unescaped(image->uri);
-    out.name = out.path.string();
-    // An image that may not be opened is one that cannot be read: the material has its colour.
-    if (!check_reach(file, out.path)) out.bytes = std::make_shared<const std::string>();
+    return ImageSource::beside(file, file, unescaped(image->uri));
   } else {
     out.bytes = std::make_shared<const std::string>();
   }

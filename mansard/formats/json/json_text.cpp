@@ -3,26 +3,10 @@
 #include <cmath>
 
 #include "mansard/base/text.hpp"
+#include "mansard/formats/json/utf8.hpp"
 
 namespace mansard::formats::detail {
 namespace {
-
-/// The length of the well-formed UTF-8 sequence at the start of `s`; 0 when there is none (RFC 3629, table in section
-/// 4).
-auto utf8_length(std::string_view s) -> std::size_t {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
-  const auto continues = [&](std::size_t i, unsigned least = 0x80, unsigned most = 0xBF) {
-    return i < s.size() && byte(i) >= least && byte(i) <= most;
-  };
-  const unsigned b = byte(0);
-  if (b < 0x80) return 1;
-  if (b >= 0xC2 && b <= 0xDF) return continues(1) ? 2 : 0;
-  if (b >= 0xE0 && b <= 0xEF)
-    return continues(1, b == 0xE0 ? 0xA0 : 0x80, b == 0xED ? 0x9F : 0xBF) && continues(2) ? 3 : 0;
-  if (b >= 0xF0 && b <= 0xF4)
-    return continues(1, b == 0xF0 ? 0x90 : 0x80, b == 0xF4 ? 0x8F : 0xBF) && continues(2) && continues(3) ? 4 : 0;
-  return 0;
-}
 
 void append_quoted(std::string& out, std::string_view value) {
   constexpr std::string_view hex = "0123456789abcdef";
@@ -53,6 +37,21 @@ void append_quoted(std::string& out, std::string_view value) {
 }
 
 }  // namespace
+
+auto utf8_length(std::string_view s) -> std::size_t {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
+  const auto continues = [&](std::size_t i, unsigned least = 0x80, unsigned most = 0xBF) {
+    return i < s.size() && byte(i) >= least && byte(i) <= most;
+  };
+  const unsigned b = byte(0);
+  if (b < 0x80) return 1;
+  if (b >= 0xC2 && b <= 0xDF) return continues(1) ? 2 : 0;
+  if (b >= 0xE0 && b <= 0xEF)
+    return continues(1, b == 0xE0 ? 0xA0 : 0x80, b == 0xED ? 0x9F : 0xBF) && continues(2) ? 3 : 0;
+  if (b >= 0xF0 && b <= 0xF4)
+    return continues(1, b == 0xF0 ? 0x90 : 0x80, b == 0xF4 ? 0x8F : 0xBF) && continues(2) && continues(3) ? 4 : 0;
+  return 0;
+}
 
 auto quoted(std::string_view value) -> std::string {
   std::string out;

@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 
+#include "mansard/base/text.hpp"
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/files/named_file.hpp"
 #include "mansard/formats/files/words.hpp"
@@ -60,6 +61,13 @@ auto srgb_of(std::uint16_t linear) -> std::uint8_t {
   const auto index = static_cast<std::uint8_t>(above - table.begin());
   const bool lower = linear - *(above - 1) < *above - linear;
   return lower ? static_cast<std::uint8_t>(index - 1) : index;
+}
+
+auto ImageSource::beside(const std::filesystem::path& given, const std::filesystem::path& from, const std::string& name)
+    -> ImageSource {
+  auto path = named_beside(given, from, name);
+  if (!path) return {name, {}, base::on_one_line(name), path.error()};
+  return {*path, {}, path->string()};
 }
 
 void append(TexturedMesh& all, TexturedMesh more) {

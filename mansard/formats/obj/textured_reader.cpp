@@ -34,7 +34,7 @@ struct ObjMaterial {
 /// A library of materials.
 class Library {
  public:
-  explicit Library(fs::path folder) : folder_(std::move(folder)) {}
+  explicit Library(fs::path mesh) : mesh_(std::move(mesh)) {}
 
   void read(std::string_view text) {
     ObjMaterial* material = nullptr;
@@ -78,18 +78,16 @@ class Library {
     }
     const auto name = material_name(line);
     if (name.empty()) return;
-    const auto path = named_beside(folder_, name);
-    material.texture.image = ImageSource{path, {}, path.string()};
+    material.texture.image = ImageSource::beside(mesh_, mesh_, name);
     material.colour = white;  // exporters write any colour beside a picture, black too
   }
 
-  fs::path folder_;
+  fs::path mesh_;
 };
 
 class TexturedObjReader {
  public:
-  TexturedObjReader(std::string_view bytes, const fs::path& path)
-      : rest_(bytes), path_(path), library_(path.parent_path()) {}
+  TexturedObjReader(std::string_view bytes, const fs::path& path) : rest_(bytes), path_(path), library_(path) {}
 
   auto read() -> base::Result<TexturedMesh> {
     while (!rest_.empty()) {
@@ -220,16 +218,18 @@ class TexturedObjReader {
   /// Several names, or one with blanks in it.
   auto take_libraries(std::string_view line) -> base::Result<void> {
     const auto whole = material_name(line);
-    const auto folder = path_.parent_path();
-    if (const auto path = named_beside(folder, whole); is_there(path)) return take_library(path);
+    const auto all = named_beside(path_, path_, whole);
+    if (all && is_there(*all)) return take_library(*all);
     bool any = false;
     for (auto word = take_word(line); !word.empty(); word = take_word(line)) {
-      const auto path = named_beside(folder, std::string(word));
-      if (!is_there(path)) continue;
+      const auto path = named_beside(path_, path_, std::string(word));
+      if (!path || !is_there(*path)) continue;
       any = true;
-      if (auto done = take_library(path); !done) return done;
+      if (auto done = take_library(*path); !done) return done;
     }
-    if (!any)
+    if (!any && !all)
+      out_.warnings.push_back(base::warning("texture-outside", all.error().message, all.error().subject));
+    else if (!any)
       out_.warnings.push_back(base::warning(
           "texture-missing", "the library of materials '" + whole + "' is missing; copy it beside the mesh",
           path_.string()));

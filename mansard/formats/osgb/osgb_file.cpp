@@ -122,13 +122,10 @@ class Tree {
 
   auto material_of(const outside::Picture& picture, const fs::path& path) const -> TextureMaterial {
     TextureMaterial material;
-    auto& image = material.image.emplace();
-    image.path = path;
-    if (picture.bytes.empty()) image.path = path.parent_path() / picture.file;
-    // One that may not be opened is one that cannot be read.
-    if (!picture.bytes.empty() || !check_reach(root_, image.path))
-      image.bytes = std::make_shared<const std::string>(picture.bytes);
-    image.name = path.string() + " image " + base::on_one_line(picture.file);
+    if (picture.bytes.empty()) material.image = ImageSource::beside(root_, path, picture.file);
+    else
+      material.image = {path, std::make_shared<const std::string>(picture.bytes),
+                        path.string() + " image " + base::on_one_line(picture.file)};
     for (std::size_t side = 0; side < 2; ++side)
       material.wrap[side] = picture.wrap[side] == 0   ? Wrap::repeat
                             : picture.wrap[side] == 2 ? Wrap::mirror

@@ -152,8 +152,7 @@ class Reader {
   Reader(const PlyHeader& header, std::string_view header_text, const std::filesystem::path& path)
       : header_(header), name_(path.string()) {
     for (const auto& name : texture_files(header_text)) {
-      const auto image = named_beside(path.parent_path(), name);
-      out_.materials.push_back({ImageSource{image, {}, image.string()}, {Wrap::repeat, Wrap::repeat}});
+      out_.materials.push_back({ImageSource::beside(path, path, name), {Wrap::repeat, Wrap::repeat}});
     }
   }
 

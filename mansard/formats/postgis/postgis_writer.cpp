@@ -94,6 +94,11 @@ class PostgisWriter : public CityWriter {
     return add_solids(building, *keyed);
   }
 
+  [[nodiscard]] auto warnings() const -> std::vector<base::Diagnostic> override {
+    const auto some = columns_.warning("buildings");
+    return some ? std::vector{*some} : std::vector<base::Diagnostic>();
+  }
+
   auto finish() -> base::Result<void> override {
     const Manners manners;
     const auto fields = columns_.fields();

@@ -43,10 +43,11 @@ auto read_ground_picture(const fs::path& path, const std::string& crs, int most)
   crs::register_gdal();
   if (!is_there(path)) return why_missing(path);
   const crs::GdalMessages messages;
-  const Offline offline(path);
+  const Confined confined(path);
   GDALDatasetUniquePtr file(GDALDataset::Open(name_for_gdal(path).c_str(),
                                               GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
                                               nullptr, nullptr));
+  if (auto done = confined.check(); !done) return done.error();
   if (!file || file->GetRasterCount() == 0)
     return bad_picture(
         "not a picture that GDAL reads" + (messages.failure().empty() ? "" : " (" + messages.failure() + ")"), path);
@@ -82,6 +83,7 @@ auto read_ground_picture(const fs::path& path, const std::string& crs, int most)
                        path);
 
   auto out = ground_picture_of(*now, most);
+  if (auto done = confined.check(); !done) return done.error();
   if (out.png.empty())
     return bad_picture("it cannot be read" + (messages.failure().empty() ? "" : " (" + messages.failure() + ")"), path);
   return out;

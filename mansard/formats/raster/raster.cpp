@@ -92,12 +92,13 @@ auto RasterFile::open(const fs::path& path) -> base::Result<RasterFile> {
   crs::register_gdal();
   if (!is_there(path)) return why_missing(path);
   const crs::GdalMessages messages;
-  const Offline offline(path);
+  const Confined confined(path);
   RasterFile out;
   out.path_ = path;
   out.dataset_.reset(GDALDataset::Open(name_for_gdal(path).c_str(),
                                        GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr,
                                        nullptr));
+  if (auto done = confined.check(); !done) return done.error();
   if (!out.dataset_ || out.dataset_->GetRasterCount() == 0)
     return bad("not a raster that GDAL reads" + (messages.failure().empty() ? "" : " (" + messages.failure() + ")") +
                    "; give heights as GeoTIFF, VRT, ASCII grid or IMG",
@@ -160,7 +161,7 @@ auto RasterFile::to_metres() const -> base::Result<double> {
 }
 
 auto RasterFile::read(const Window& window, int first, int count, std::vector<double>& heights) -> base::Result<void> {
-  const Offline offline(path_);  // sources of a VRT are opened when they are read
+  const Confined confined(path_);  // sources of a VRT are opened when they are read
   const crs::GdalMessages messages;
   const std::size_t cells = static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(count);
   heights.resize(cells);
@@ -169,8 +170,11 @@ auto RasterFile::read(const Window& window, int first, int count, std::vector<do
   if (band_->RasterIO(GF_Read, window.left, top, window.columns, count, heights.data(), window.columns, count,
                       GDT_Float64, 0, 0, nullptr) != CE_None ||
       band_->GetMaskBand()->RasterIO(GF_Read, window.left, top, window.columns, count, mask_.data(), window.columns,
-                                     count, GDT_Byte, 0, 0, nullptr) != CE_None)
+                                     count, GDT_Byte, 0, 0, nullptr) != CE_None) {
+    if (auto done = confined.check(); !done) return done;
     return bad("it cannot be read to its end (" + messages.failure() + "); copy or make it again", path_);
+  }
+  if (auto done = confined.check(); !done) return done;
   // Deeper than any land and higher than any city: a mark for "none" that the raster does not declare.
   constexpr double lowest = -1000, highest = 10000;
   for (std::size_t i = 0; i < cells; ++i) {

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "mansard/base/files.hpp"
+#include "mansard/formats/files/named_file.hpp"
 #include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/source.hpp"
 #include "mansard/formats/tiles3d/tileset.hpp"
@@ -42,9 +43,9 @@ class SourceWalk {
     constexpr std::size_t most = 100'000, deepest = 256;  // of tilesets that name others
     std::error_code status;
     if (depth > deepest || opened_.size() >= most || !opened_.insert(fs::weakly_canonical(path, status)).second) return;
-    const auto bytes = base::read_file(path);
+    const auto bytes = bytes_of_named(path);
     if (!bytes) return;
-    const TilesetJson tileset(*bytes);
+    const TilesetJson tileset(bytes->view());
     if (tileset.fault() != TilesetJson::Fault::none) return;
     ++out_.tilesets;
     take(tileset.root(), path, depth);

@@ -11,6 +11,7 @@
 
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/json/utf8.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -194,9 +195,12 @@ auto make_different(std::vector<std::string>& ids) -> std::pair<std::size_t, std
 auto as_given(std::vector<std::string> ids, const std::vector<RawFeature>& features, const std::string& attribute,
               const std::string& subject, std::vector<base::Diagnostic>& warnings) -> std::vector<std::string> {
   std::size_t missing = 0;
+  const std::set<std::string> given(ids.begin(), ids.end());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (!ids[i].empty()) continue;
-    ids[i] = "feature-" + std::to_string(features[i].number);
+    const auto name = "feature-" + std::to_string(features[i].number);
+    ids[i] = name;
+    for (int n = 2; given.contains(ids[i]); ++n) ids[i] = name + "~" + std::to_string(n);
     ++missing;
   }
   if (missing > 0)
@@ -215,6 +219,19 @@ auto as_given(std::vector<std::string> ids, const std::vector<RawFeature>& featu
   return ids;
 }
 
+/// The id as every format can hold it.
+auto holdable(const std::string& id) -> std::string {
+  std::string out;
+  for (std::size_t i = 0; i < id.size();) {
+    const auto length = detail::utf8_length(std::string_view(id).substr(i));
+    const auto code = static_cast<unsigned char>(id[i]);
+    if (length == 0 || code < 0x20 || code == 0x7F) out += "\xEF\xBF\xBD";
+    else out += id.substr(i, length);
+    i += std::max<std::size_t>(length, 1);
+  }
+  return out;
+}
+
 /// Whether the ids name features, though not each its own: half of the features have one, and at most ten share one on
 /// average. Parts of a building do; a kind of building is shared by more.
 auto name_features(const std::vector<std::string>& ids) -> bool {
@@ -225,18 +242,8 @@ auto name_features(const std::vector<std::string>& ids) -> bool {
   return distinct.size() > 1 && 2 * given >= ids.size() && most_sharing * distinct.size() >= given;
 }
 
-}  // namespace
-
-auto attributes_of(const OGRFeature& feature) -> model::Attributes {
-  model::Attributes out;
-  out.reserve(static_cast<std::size_t>(feature.GetFieldCount()));
-  for (int i = 0; i < feature.GetFieldCount(); ++i)
-    out.emplace_back(feature.GetFieldDefnRef(i)->GetNameRef(), value_of(feature, i));
-  return out;
-}
-
-auto ids_of(const std::vector<RawFeature>& features, const std::string& attribute, const std::string& subject,
-            std::vector<base::Diagnostic>& warnings) -> base::Result<std::vector<std::string>> {
+auto chosen_ids(const std::vector<RawFeature>& features, const std::string& attribute, const std::string& subject,
+                std::vector<base::Diagnostic>& warnings) -> base::Result<std::vector<std::string>> {
   const std::vector<std::string> names = names_of(features);
   const auto find = [&names](std::string_view wanted) -> std::optional<std::string> {
     for (const auto& name : names)
@@ -286,6 +293,70 @@ auto ids_of(const std::vector<RawFeature>& features, const std::string& attribut
   if (!all_different(ids))
     for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = std::to_string(i);
   return ids;
+}
+
+}  // namespace
+
+auto attributes_of(const OGRFeature& feature) -> model::Attributes {
+  model::Attributes out;
+  out.reserve(static_cast<std::size_t>(feature.GetFieldCount()));
+  for (int i = 0; i < feature.GetFieldCount(); ++i)
+    out.emplace_back(feature.GetFieldDefnRef(i)->GetNameRef(), value_of(feature, i));
+  return out;
+}
+
+auto ids_of(const std::vector<RawFeature>& features, const std::string& attribute, const std::string& subject,
+            std::vector<base::Diagnostic>& warnings) -> base::Result<std::vector<std::string>> {
+  auto ids = chosen_ids(features, attribute, subject, warnings);
+  if (!ids) return ids;
+  std::size_t changed = 0;
+  std::string first;
+  for (auto& id : *ids) {
+    auto out = holdable(id);
+    if (out == id) continue;
+    if (changed++ == 0) first = out;
+    id = std::move(out);
+  }
+  if (changed == 0) return ids;
+  warnings.push_back(
+      base::warning("ingest-id-characters",
+                    std::to_string(changed) + " of " + std::to_string(features.size()) +
+                        " ids have characters that are not UTF-8, or control characters; each became U+FFFD, as in '" +
+                        first + "'; give the encoding of the file with --ingest-encoding",
+                    subject));
+  (void)make_different(*ids);  // two of them can have become one
+  return ids;
+}
+
+auto part_prefixes_of(const std::vector<std::string>& ids) -> std::map<std::string, std::string> {
+  std::vector<std::string_view> sorted(ids.begin(), ids.end());
+  std::ranges::sort(sorted);
+  const auto is_id = [&](std::string_view name) { return std::ranges::binary_search(sorted, name); };
+  const auto is_number = [](std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+  };
+  // An id that is another one, "-" and a number: that other needs a longer prefix.
+  std::map<std::string, std::string> out;
+  for (const auto id : sorted) {
+    const auto dash = id.rfind('-');
+    if (dash != id.npos && is_number(id.substr(dash + 1)) && is_id(id.substr(0, dash)))
+      out.emplace(id.substr(0, dash), std::string());
+  }
+  std::set<std::string> chosen;
+  const auto is_taken = [&](const std::string& prefix) {
+    if (chosen.contains(prefix)) return true;
+    // By another's parts, or by an id.
+    if (is_id(std::string_view(prefix).substr(0, prefix.size() - 1))) return true;
+    for (auto at = std::ranges::lower_bound(sorted, std::string_view(prefix));
+         at != sorted.end() && at->starts_with(prefix); ++at)
+      if (is_number(at->substr(prefix.size()))) return true;
+    return false;
+  };
+  for (auto& [id, prefix] : out) {
+    for (prefix = id + "--"; is_taken(prefix); prefix += '-') continue;
+    chosen.insert(prefix);
+  }
+  return out;
 }
 
 }  // namespace mansard::formats

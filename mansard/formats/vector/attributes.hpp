@@ -1,6 +1,7 @@
 // Attributes and ids of features.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,15 @@ namespace mansard::formats {
 /// One id per feature, all different: the attribute asked for, else the source's own names, else the first well-known
 /// attribute that is there for all and different for all, else the first that names features, else the feature numbers.
 /// An id that an earlier feature has gets ~2, ~3 … appended, which never makes an id that was given; a feature without
-/// one is "feature-" and its number. Warns "ingest-id-duplicate", fails with "ingest-id-attribute".
+/// one is "feature-" and its number. Characters that some format cannot hold, which are bytes that are no UTF-8 and
+/// control characters, become U+FFFD. Warns "ingest-id-duplicate", "ingest-id-characters", fails with
+/// "ingest-id-attribute".
 [[nodiscard]] auto ids_of(const std::vector<RawFeature>& features, const std::string& attribute,
                           const std::string& subject, std::vector<base::Diagnostic>& warnings)
     -> base::Result<std::vector<std::string>>;
+
+/// What the names of the parts of a feature begin with, by its id: only for those where "id-" and a number could be the
+/// id of another feature, or the name of another's part. The ids are all different.
+[[nodiscard]] auto part_prefixes_of(const std::vector<std::string>& ids) -> std::map<std::string, std::string>;
 
 }  // namespace mansard::formats

@@ -1,8 +1,10 @@
 #include "mansard/formats/vector/features.hpp"
 
+#include <iconv.h>
 #include <ogrsf_frmts.h>
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "mansard/base/options.hpp"
@@ -14,10 +16,12 @@
 #include "mansard/formats/citygml/citygml_document.hpp"
 #include "mansard/formats/cityjson/footprint_reader.hpp"
 #include "mansard/formats/drivers.hpp"
+#include "mansard/formats/files/named_file.hpp"
 #include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/geojson/assumed_crs.hpp"
 #include "mansard/formats/hash.hpp"
+#include "mansard/formats/json/utf8.hpp"
 #include "mansard/formats/osm/osm.hpp"
 #include "mansard/formats/vector/attributes.hpp"
 
@@ -26,15 +30,60 @@ namespace {
 
 namespace fs = std::filesystem;
 
-auto open(const std::string& name) -> GDALDatasetUniquePtr {
+auto open(const std::string& name, const std::string& encoding) -> GDALDatasetUniquePtr {
   crs::register_gdal();
-  // The GML driver would write a .gfs file beside its input.
-  const CPLStringList quiet(CSLSetNameValue(nullptr, "WRITE_GFS", "NO"));
-  const CPLStringList none;
   GDALDriverH driver = GDALIdentifyDriverEx(name.c_str(), GDAL_OF_VECTOR, nullptr, nullptr);
-  const bool gml = driver != nullptr && std::string_view(GDALGetDescription(driver)) == "GML";
+  const auto is = [&](std::string_view kind) { return driver != nullptr && GDALGetDescription(driver) == kind; };
+  CPLStringList words;
+  // The GML driver would write a .gfs file beside its input.
+  if (is("GML")) words.SetNameValue("WRITE_GFS", "NO");
+  if (is("ESRI Shapefile") && !encoding.empty()) words.SetNameValue("ENCODING", encoding.c_str());
   return GDALDatasetUniquePtr(GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                                nullptr, gml ? quiet.List() : none.List(), nullptr));
+                                                nullptr, words.List(), nullptr));
+}
+
+auto is_utf8(std::string_view text) -> bool {
+  while (!text.empty()) {
+    const auto length = detail::utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+/// Why the value of a GeoJSON's "crs" names no CRS; empty where it does. GDAL takes degrees instead.
+auto failure_of_crs(std::string_view value) -> std::string {
+  const auto crs = nlohmann::json::parse(value, nullptr, false);
+  const auto text_in = [](const nlohmann::json& from, const char* key) {
+    const auto found = from.is_object() ? from.find(key) : from.end();
+    return from.is_object() && found != from.end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  if (!crs.is_object()) return "it is no object";
+  const auto properties = crs.value("properties", nlohmann::json::object());
+  const auto kind = text_in(crs, "type");
+  if (kind == "link" || kind == "url")
+    return "it is a link, '" + base::on_one_line(text_in(properties, kind == "link" ? "href" : "url")) +
+           "', and no link is followed";
+  const auto name = text_in(properties, "name");
+  if (kind != "name" || crs::from_words(name)) return {};
+  return "'" + base::on_one_line(name) + "'" + crs::hint_for(name);
+}
+
+/// Where JSON has an escaped NUL.
+auto first_nul(std::string_view json) -> std::optional<std::size_t> {
+  constexpr std::string_view escaped = "\\u0000";
+  for (auto at = json.find(escaped); at != json.npos; at = json.find(escaped, at + 1)) {
+    const auto before = json.find_last_not_of('\\', at);
+    if ((before == json.npos ? at + 1 : at - before) % 2 == 1) return at;  // else the backslash itself is escaped
+  }
+  return std::nullopt;
+}
+
+auto is_encoding(const std::string& name) -> bool {
+  const iconv_t found = ::iconv_open("UTF-8", name.c_str());
+  if (found == iconv_t(-1)) return false;
+  ::iconv_close(found);
+  return true;
 }
 
 /// Everything that was read of the features, as bytes that differ where they differ.
@@ -215,8 +264,22 @@ class Source {
       : path_(path), subject_(shown_name(path)), options_(options), run_(run) {}
 
   auto read() -> base::Result<FeatureFile> {
-    const Offline offline(path_);
-    dataset_ = open(inside_of(name_for_gdal(path_)));
+    if (!options_.encoding.empty() && !is_encoding(options_.encoding))
+      return base::error(
+          "ingest-encoding",
+          "'" + options_.encoding +
+              "' is not a known encoding; expected one of those that 'iconv -l' lists, such as ISO-8859-1",
+          "ingest.encoding");
+    const Confined confined(path_);
+    auto file = read_confined();
+    // What is wrong may be that something is missing that was refused.
+    if (auto done = confined.check(); !done) return done.error();
+    return file;
+  }
+
+ private:
+  auto read_confined() -> base::Result<FeatureFile> {
+    dataset_ = open(inside_of(name_for_gdal(path_)), options_.encoding);
     if (!dataset_) return not_opened();
     at_opening_ = messages_.failure();
     if (!is_elsewhere(path_)) {
@@ -229,6 +292,7 @@ class Source {
     OGRLayer& layer = **chosen;
     out_.crs = crs_of(layer.GetSpatialRef());
     if (auto done = look_at_geojson(); !done) return done.error();
+    if (out_.crs.empty() && out_.crs_failure.empty()) look_for_crs();
     if (!options_.where.empty() && layer.SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE)
       return bad_filter(layer);
     if (auto done = take_near(layer, options_.where); !done) return done.error();
@@ -242,12 +306,12 @@ class Source {
       for (auto& feature : out_.features) feature.passes = passing.contains(feature.number);
     }
     warn_of_limits();
+    decode_texts();
     if (is_database(path_)) std::ranges::sort(out_.features, {}, &RawFeature::number);
     if (is_elsewhere(path_)) out_.inputs = {input_of(out_.features, subject_)};
     return std::move(out_);
   }
 
- private:
   auto unreadable(const std::string& why) const -> base::Diagnostic {
     if (has_extension(path_, &Reads::mesh) || extension_of(path_) == ".osgb")
       return base::error(
@@ -296,10 +360,45 @@ class Source {
     const CPLStringList files(dataset_->GetFileList());
     const auto text = Bytes::of(files.Count() > 0 && !is_virtual(path_) ? fs::path(files[0]) : path_);
     if (!text) return text.error();
-    out_.assumed_crs = !has_top_level_member(text->view(), "crs");
+    const auto named = top_level_member(text->view(), "crs");
+    out_.assumed_crs = !named;
+    if (named) out_.crs_failure = failure_of_crs(*named);
+    if (const auto place = first_nul(text->view()))
+      out_.warnings.push_back(base::warning(
+          "ingest-text",
+          "there are strings with the character U+0000, the first at byte " + std::to_string(*place) +
+              "; GDAL reads each up to it: ids can have become the same. Write the file without that character",
+          subject_));
     // GDAL complains, and takes degrees instead.
-    if (!out_.assumed_crs && at_opening_.find("crs") != std::string::npos) out_.crs_failure = at_opening_;
+    if (named && out_.crs_failure.empty() && at_opening_.find("crs") != std::string::npos)
+      out_.crs_failure = at_opening_;
     return {};
+  }
+
+  /// A name that GDAL does not know is none to it. The file next to a Shapefile, and GML, have it as text.
+  void look_for_crs() {
+    const bool gml = std::string_view(dataset_->GetDriverName()) == "GML";
+    const CPLStringList files(dataset_->GetFileList());
+    for (int i = 0; i < files.Count(); ++i) {
+      const bool own = extension_of(files[i]) == ".prj";
+      if (!own && !gml) continue;
+      const auto bytes = Bytes::of(files[i]);
+      if (!bytes) continue;
+      constexpr std::size_t enough = 65536;  // the first feature of a GML has the name, or the box before it
+      std::string name(bytes->view().substr(0, enough));
+      if (!own) {
+        constexpr std::string_view attribute = "srsName=\"";
+        const auto at = name.find(attribute);
+        if (at == name.npos) continue;
+        name.erase(0, at + attribute.size());
+        name.resize(std::min(name.find('"'), name.size()));
+      }
+      name = base::on_one_line(name);
+      name.erase(name.find_last_not_of(" \t") + 1);
+      if (name.empty() || crs::from_words(name)) continue;
+      constexpr std::size_t shown = 100;
+      out_.crs_failure = "'" + name.substr(0, shown) + "'" + crs::hint_for(name);
+    }
   }
 
   /// The features in the box, or all, that pass the filter `where`, which is set.
@@ -360,6 +459,31 @@ class Source {
                                             std::to_string(count) +
                                                 " integer attributes are at the limit of 64 bits, " + first +
                                                 "; write larger integers as strings",
+                                            subject_));
+  }
+
+  /// Texts that are not UTF-8, by the encoding that was given.
+  void decode_texts() {
+    std::size_t count = 0;
+    std::string first;
+    for (auto& feature : out_.features)
+      for (auto& [name, value] : feature.attributes) {
+        auto* text = std::get_if<std::string>(&value);
+        if (text == nullptr || is_utf8(*text)) continue;
+        if (!options_.encoding.empty()) {
+          char* decoded = CPLRecode(text->c_str(), options_.encoding.c_str(), CPL_ENC_UTF8);
+          *text = decoded;
+          CPLFree(decoded);
+        } else if (count++ == 0) {
+          first = "'" + name + "' of feature " + std::to_string(feature.number);
+        }
+      }
+    if (count > 0)
+      out_.warnings.push_back(base::warning("ingest-text",
+                                            std::to_string(count) +
+                                                " strings of attributes are not UTF-8, the first is " + first +
+                                                "; give their encoding with --ingest-encoding, such as ISO-8859-1, or "
+                                                "characters are lost where models are written",
                                             subject_));
   }
 
@@ -496,6 +620,7 @@ auto read_features(const fs::path& path, const FeatureQuery& options, const base
   std::error_code failure;
   if (!is_database(path)) {
     if (!is_there(path)) return why_missing(path);
+    if (auto piped = check_pipe(path); !piped) return piped.failure();
     if (fs::is_regular_file(path, failure) && fs::file_size(path, failure) == 0)
       return base::error("ingest-footprints-format", "the file is empty; export the footprints again", subject);
     auto model = read_city_model(path, options);

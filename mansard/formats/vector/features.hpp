@@ -49,13 +49,14 @@ struct FeatureQuery {
   bool others = false;  ///< also what does not pass the filter, with RawFeature::passes false; fails where nothing does
   std::string crs;      ///< the working CRS that was asked for, in which `bbox` is given; empty: the source's own
   std::array<double, 4> bbox{0, 0, 0, 0};  ///< xmin ymin xmax ymax; all zero: everything
+  std::string encoding{};                  ///< of texts that are not UTF-8; empty: what the source says
 };
 
 /// Reads the chosen layer of any OGR vector source: polygons with curves as segments, and of their
 /// heights the lowest. With `options.bbox`, features that cannot meet it may be left out already, but never all. A
 /// database and what lies on a server is known by the hash of its features, in the order of their numbers.
 /// Fails with "file-missing", "file-read", "ingest-footprints-format", "ingest-footprints-none",
-/// "ingest-footprints-geometry", "ingest-layer", "ingest-where", "cancelled".
+/// "ingest-footprints-geometry", "ingest-layer", "ingest-where", "ingest-encoding", "cancelled".
 [[nodiscard]] auto read_features(const std::filesystem::path& path, const FeatureQuery& options, const base::Run& run)
     -> base::Result<FeatureFile>;
 

@@ -27,4 +27,8 @@ template <class Work>
   return {};
 }
 
+/// The box that a header should say, from the points; empty where none is finite.
+[[nodiscard]] auto measured_plan(const formats::PointCloud& cloud, const base::Run& run)
+    -> base::Result<geometry::Box2>;
+
 }  // namespace mansard::ingest::detail

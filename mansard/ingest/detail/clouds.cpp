@@ -37,19 +37,6 @@ auto area_of(const Box2& box, const std::optional<crs::WayOfMesh>& way) -> doubl
 
 auto finite(Point3 p) -> bool { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-/// The box that a header should have said, from the points.
-auto measured(const formats::PointCloud& cloud, const base::Run& run) -> base::Result<Box2> {
-  std::vector<Box2> boxes(cloud.pieces());
-  const auto read = each_piece(cloud, run, [&](std::size_t i, const auto& points) {
-    for (const auto& p : points)
-      if (finite(p.position)) boxes[i].add(xy(p.position));
-  });
-  if (!read) return read.failure();
-  Box2 all;
-  for (const auto& box : boxes) all.include(box);
-  return all;
-}
-
 auto percent(std::uint64_t part, std::uint64_t whole) -> std::string {
   return base::to_text(whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole), 1) + " %";
 }
@@ -130,6 +117,18 @@ auto in_words(const cloud::Counts& counts, double density, double cell, bool gro
 
 }  // namespace
 
+auto measured_plan(const formats::PointCloud& cloud, const base::Run& run) -> base::Result<Box2> {
+  std::vector<Box2> boxes(cloud.pieces());
+  const auto read = each_piece(cloud, run, [&](std::size_t i, const auto& points) {
+    for (const auto& p : points)
+      if (finite(p.position)) boxes[i].add(xy(p.position));
+  });
+  if (!read) return read.failure();
+  Box2 all;
+  for (const auto& box : boxes) all.include(box);
+  return all;
+}
+
 auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const base::Run& run, MeshFiles& out)
     -> base::Result<std::vector<formats::MeshPiece>> {
   std::vector<Source*> clouds;
@@ -154,7 +153,7 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
     if (info.stated_bounds) plan = info.stated_bounds->plan();
     double area = plan.empty() ? 0 : area_of(plan, source->way);
     if (!(area > 0)) {
-      const auto box = measured(*source->cloud, run);
+      const auto box = measured_plan(*source->cloud, run);
       if (!box) return box.failure();
       area = box->empty() ? 0 : area_of(*box, source->way);
       ++(box->empty() ? without_place : flat);

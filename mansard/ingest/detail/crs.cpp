@@ -145,6 +145,14 @@ auto choose_way(const formats::FeatureFile& file, const std::string& option, con
   if (file.assumed_crs && looks_local(file, mesh)) return without_crs(option, subject, true);
 
   const auto source = crs::from_wkt(file.crs);
+  if (OGRSpatialReference all; !source && all.importFromWkt(file.crs.c_str()) == OGRERR_NONE)
+    if (const auto grid = crs::grid_elsewhere(all))
+      return base::error(
+          "ingest-crs-unknown",
+          "the CRS of the footprints refers to the grid '" + base::on_one_line(*grid) +
+              "' by a path or an address, which is not opened; say --crs EPSG:n after reprojecting them, "
+              "or give the grid by its name alone and install it among PROJ's",
+          subject);
   if (!source || (source->system.IsGeographic() == 0 && source->system.IsProjected() == 0))
     return base::error("ingest-crs-unknown",
                        "the CRS of the footprints is neither projected nor geographic, or not known" +

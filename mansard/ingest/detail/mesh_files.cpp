@@ -14,6 +14,7 @@
 #include "mansard/crs/spatial_reference.hpp"
 #include "mansard/formats/context_capture/context_capture.hpp"
 #include "mansard/formats/drivers.hpp"
+#include "mansard/formats/files/named_file.hpp"
 #include "mansard/formats/files/reach.hpp"
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/input_file.hpp"
@@ -23,6 +24,7 @@
 #include "mansard/formats/osgb/osgb_file.hpp"
 #include "mansard/formats/raster/raster.hpp"
 #include "mansard/ingest/detail/clean.hpp"
+#include "mansard/ingest/detail/cloud_pieces.hpp"
 #include "mansard/ingest/detail/files_below.hpp"
 
 namespace mansard::ingest::detail {
@@ -70,7 +72,7 @@ auto is_below(const fs::path& file, const std::vector<std::string>& folders) -> 
 auto crs_of_raster(const fs::path& path) -> std::optional<crs::MeshCrs> {
   const crs::GdalMessages messages;
   crs::register_gdal();
-  const formats::Offline offline(path);
+  const formats::Confined confined(path);
   GDALDatasetH data =
       GDALOpenEx(formats::name_for_gdal(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr);
   if (data == nullptr) return std::nullopt;  // why, reading it says
@@ -136,6 +138,7 @@ auto MeshReading::list_folder(const fs::path& folder) -> base::Result<void> {
 
 auto MeshReading::list(const std::vector<fs::path>& paths) -> base::Result<void> {
   for (const auto& given : paths) {
+    if (auto piped = formats::check_pipe(given); !piped) return piped;
     const fs::path path = unpacked_name(given);
     // An archive of a single file is that file to GDAL, whatever its name.
     if (is_folder(path) || is_whole_archive(path)) {
@@ -157,7 +160,7 @@ auto MeshReading::moved_by_option() const -> bool {
   return options_.mesh_offset[0] != 0 || options_.mesh_offset[1] != 0;
 }
 
-auto MeshReading::find_places() -> base::Result<void> {
+auto MeshReading::find_places(const base::Run& run) -> base::Result<void> {
   std::map<fs::path, std::optional<formats::Georeference>> known;
   for (auto& source : sources_) {
     if (source.kind == Kind::raster) {
@@ -179,7 +182,16 @@ auto MeshReading::find_places() -> base::Result<void> {
       source.cloud = std::move(*cloud);
       const auto& info = source.cloud->info();
       source.crs = info.crs;
-      if (!info.crs && info.stated_bounds) source.plan = info.stated_bounds->plan();
+      if (!info.crs) {
+        if (info.stated_bounds) source.plan = info.stated_bounds->plan();
+        // Where it is decides whether footprints without a CRS are in its frame, so a header without a box is no
+        // answer.
+        if (!(source.plan.least.x < source.plan.most.x && source.plan.least.y < source.plan.most.y)) {
+          const auto box = measured_plan(*source.cloud, run);
+          if (!box) return box.failure();
+          source.plan = *box;
+        }
+      }
       warnings_.insert(warnings_.end(), info.warnings.begin(), info.warnings.end());
       if (source.crs) continue;
     }
@@ -205,7 +217,7 @@ auto MeshReading::open(const std::vector<fs::path>& paths, const Options& option
                        MeshCells* cells) -> base::Result<MeshReading> {
   MeshReading reading(options, cells);
   if (auto done = reading.list(paths); !done) return done.error();
-  if (auto done = reading.find_places(); !done) return done.error();
+  if (auto done = reading.find_places(run); !done) return done.error();
   auto& sources = reading.sources_;
   base::parallel_for(sources.size(), [&](std::size_t i) {
     if (sources[i].kind != Kind::file || run.cancelled()) return;

@@ -85,7 +85,7 @@ class MeshReading {
   MeshReading(const Options& options, MeshCells* cells) : options_(options), cells_(cells) {}
   [[nodiscard]] auto list(const std::vector<std::filesystem::path>& paths) -> base::Result<void>;
   [[nodiscard]] auto list_folder(const std::filesystem::path& folder) -> base::Result<void>;
-  [[nodiscard]] auto find_places() -> base::Result<void>;
+  [[nodiscard]] auto find_places(const base::Run& run) -> base::Result<void>;
   [[nodiscard]] auto moved_by_option() const -> bool;
   [[nodiscard]] auto place_of(const Source& source) const -> std::optional<geometry::Point3>;
   [[nodiscard]] auto choose_ways(const std::string& working) -> base::Result<void>;

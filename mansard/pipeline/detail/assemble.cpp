@@ -100,8 +100,8 @@ struct Account {
   double area = 0;
   double simpler = 0;  // parts
 };
-void take(PartResult part, const report::BlockReport& block, double z0, model::Building& building,
-          report::BuildingReport& report, Account& account) {
+void take(PartResult part, const report::BlockReport& block, double z0, const model::Footprint& footprint,
+          model::Building& building, report::BuildingReport& report, Account& account) {
   report.roof_min = report.parts == 0 ? z0 + part.roof.front() : std::min(report.roof_min, z0 + part.roof.front());
   const double top = z0 + report::top_of(part.model.solid);
   report.roof_max = report.parts == 0 ? top : std::max(report.roof_max, top);
@@ -121,8 +121,8 @@ void take(PartResult part, const report::BlockReport& block, double z0, model::B
     report.reasons.push_back(std::move(reason));
   }
   auto attributes = attributes_of(part, block, z0);
-  building.parts.push_back({building.id + "-" + std::to_string(report.parts), std::move(part.plan),
-                            std::move(part.model), std::move(attributes)});
+  building.parts.push_back(
+      {footprint.part_id(report.parts), std::move(part.plan), std::move(part.model), std::move(attributes)});
 }
 
 }  // namespace
@@ -242,7 +242,8 @@ auto finish_block(const model::Scene& scene, BlockResult& result, const Options&
   const auto finished = [&](std::size_t feature) -> Finished& { return out[place_of(feature)].second; };
   for (auto& part : result.parts) {
     const auto at = place_of(part.feature);
-    take(std::move(part), result.report, z0, out[at].second.building, out[at].second.report, accounts[at]);
+    take(std::move(part), result.report, z0, scene.feature(out[at].first), out[at].second.building,
+         out[at].second.report, accounts[at]);
   }
   for (auto& [f, made] : result.solids) add_solids(finished(f).building, finished(f).report, std::move(made), z0);
   for (const std::size_t f : result.covered) {

@@ -1,0 +1,253 @@
+// Inputs that are unlucky: ids like those of parts, more attributes than columns, names of no CRS, wrong encodings, a
+// format that cannot hold a city. Nothing is lost, and every remedy that a message names works.
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "cli/command.hpp"
+
+namespace mansard::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::HasSubstr;
+using testing::Not;
+
+class Unlucky : public Command {
+ protected:
+  static auto feature(const std::string& properties, double x = 0) -> std::string {
+    const auto p = [&](double dx, double y) { return "[" + std::to_string(x + dx) + "," + std::to_string(y) + "]"; };
+    return R"({"type":"Feature","properties":)" + properties + R"(,"geometry":{"type":"Polygon","coordinates":[[)" +
+           p(0, 0) + "," + p(6, 0) + "," + p(6, 8) + "," + p(0, 8) + "," + p(0, 0) + "]]}}";
+  }
+  /// Two halves of the house.
+  auto halves(const std::string& first, const std::string& second) -> std::string {
+    return put(
+        "halves.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::28992"}},)"
+        R"("features":[)" +
+            feature(first) + "," + feature(second, 6) + "]}");
+  }
+  auto objects(const std::string& file) const -> Json { return Json::parse(read(at(file)))["CityObjects"]; }
+  /// The house with other coordinates.
+  template <class Change>
+  auto moved_house(const std::string& name, Change change) -> std::string {
+    std::string out;
+    std::istringstream lines(house);
+    for (std::string line; std::getline(lines, line);) {
+      double x = 0, y = 0, z = 0;
+      if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3) {
+        change(x, y, z);
+        char text[128];
+        std::snprintf(text, sizeof text, "v %.4f %.4f %.4f", x, y, z);
+        line = text;
+      }
+      out += line + "\n";
+    }
+    return put(name, out);
+  }
+  void clear() const { fs::remove_all(at("out")); }
+};
+
+TEST_F(Unlucky, ids_like_those_of_parts_stay_and_the_parts_get_others) {
+  const auto outcome = reconstruct(at("house.obj"), halves(R"({"id":"12"})", R"({"id":"12-1"})"),
+                                   "--write-solids part "
+                                   "--formats cityjson,gpkg,citygml");
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  const auto all = objects("out/model.city.json");
+  ASSERT_TRUE(all.contains("12") && all.contains("12-1"));
+  EXPECT_EQ(all["12"]["type"], "Building");
+  EXPECT_EQ(all["12-1"]["type"], "Building");
+  EXPECT_TRUE(all.contains("12--1"));
+  EXPECT_TRUE(all.contains("12-1-1"));
+}
+
+TEST_F(Unlucky, ids_that_formats_cannot_hold_are_changed_and_told) {
+  const auto outcome = reconstruct(at("house.obj"),
+                                   halves("{\"id\":\"Stra\xdf"
+                                          "e\"}",
+                                          "{\"id\":\"Stra\xe4"
+                                          "e\"}"),
+                                   "--formats cityjson,gpkg");
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  const auto told = run("reconstruct " + at("house.obj") + " " + at("halves.geojson") + " -o " + at("told"));
+  EXPECT_THAT(told.err, HasSubstr("warning[ingest-id-characters]"));
+  EXPECT_THAT(told.err, HasSubstr("--ingest-encoding"));
+  EXPECT_EQ(objects("out/model.city.json").size(), 2);
+  const auto known = reconstruct(at("house.obj"), at("halves.geojson"), "--overwrite --ingest-encoding ISO-8859-1");
+  EXPECT_EQ(known.exit, 0) << known.err;
+  EXPECT_TRUE(objects("out/model.city.json").contains("Straße"));
+  clear();
+  expect_refusal(reconstruct(at("house.obj"), at("halves.geojson"), "--ingest-encoding KLINGON"), 4, "ingest-encoding",
+                 "'KLINGON'");
+  const auto cut = run("reconstruct " + at("house.obj") + " " + halves(R"({"id":"a\u0000b"})", R"({"id":"a\u0000c"})") +
+                       " -o " + at("cut"));
+  EXPECT_EQ(cut.exit, 0);
+  EXPECT_THAT(cut.err, HasSubstr("warning[ingest-text]"));
+  EXPECT_THAT(cut.err, HasSubstr("U+0000"));
+}
+
+TEST_F(Unlucky, more_attributes_than_columns_are_kept) {
+  std::string properties = R"({"id":"a")";
+  for (int i = 0; i < 2500; ++i) properties += ",\"n" + std::to_string(i) + "\":" + std::to_string(i);
+  const auto outcome = run("reconstruct " + at("house.obj") + " " + halves(properties + "}", R"({"id":"b"})") + " -o " +
+                           at("out") + " --formats cityjson,gpkg,fgb");
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("warning[write-columns]"));
+  EXPECT_EQ(objects("out/model.city.json")["a"]["attributes"]["n2499"], 2499);
+  const auto back = run("convert -q " + at("out/model.gpkg") + " -o " + at("back.city.json"));
+  EXPECT_EQ(back.exit, 0) << back.err;
+  EXPECT_EQ(objects("back.city.json")["a"]["attributes"]["n2499"], 2499);
+}
+
+TEST_F(Unlucky, one_formats_limit_is_not_the_others_loss) {
+  // No way leads from Mars to WGS 84, which 3D Tiles need.
+  put("none.geojson", geojson(polygon(square), ""));
+  const auto outcome =
+      reconstruct(at("house.obj"), at("none.geojson"), "--crs IAU_2015:49910 --formats cityjson,tiles,obj");
+  EXPECT_EQ(outcome.exit, 3) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("error[write-tiles-crs]"));
+  EXPECT_THAT(outcome.err, HasSubstr("the other results are complete"));
+  EXPECT_TRUE(fs::exists(at("out/model.city.json")));
+  EXPECT_TRUE(fs::exists(at("out/model.obj")));
+  EXPECT_TRUE(fs::exists(at("out/run.json")));
+  EXPECT_FALSE(fs::exists(at("out/model.3dtiles")));
+  std::smatch command;
+  ASSERT_TRUE(std::regex_search(outcome.err, command, std::regex("run: mansard (convert .*)\n")));
+  const auto again = run(command[1].str());  // Mars is still Mars
+  EXPECT_THAT(again.err, HasSubstr("error[write-tiles-crs]"));
+  EXPECT_EQ(run(std::regex_replace(command[1].str(), std::regex("model.3dtiles"), "model.glb")).exit, 0);
+}
+
+TEST_F(Unlucky, a_link_in_place_of_what_a_run_keeps_is_not_followed) {
+  fs::create_directories(at("out"));
+  fs::create_directories(at("elsewhere/blocks"));
+  put("elsewhere/blocks/precious", "x");
+  fs::create_directory_symlink(at("elsewhere"), at("out/.mansard"));
+  const auto outcome = reconstruct(at("house.obj"), at("house.geojson"));
+  EXPECT_EQ(outcome.exit, 3) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("this is a link"));
+  EXPECT_TRUE(fs::exists(at("elsewhere/blocks/precious")));
+  EXPECT_FALSE(fs::exists(at("elsewhere/status.json")));
+}
+
+TEST_F(Unlucky, names_of_no_crs_are_errors_that_say_what_to_give) {
+  const auto named = [&](const std::string& name) {
+    return put("named.geojson", R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":")" + name +
+                                    R"("}},"features":[)" + feature(R"({"id":"a"})") + "]}");
+  };
+  expect_refusal(reconstruct(at("house.obj"), named("Amersfoort / RD New")), 3, "ingest-crs-unknown",
+                 "'Amersfoort / RD New'; EPSG:28992 has this name");
+  EXPECT_EQ(reconstruct(at("house.obj"), at("named.geojson"), "--crs EPSG:28992").exit, 0);
+  clear();
+  EXPECT_EQ(reconstruct(at("house.obj"), at("named.geojson"), "--crs local").exit, 0);
+  clear();
+  expect_refusal(reconstruct(at("house.obj"), named("nonsense")), 3, "ingest-crs-unknown", "'nonsense'");
+  expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), "--crs 'Amersfoort / RD New'"), 4,
+                 "ingest-crs-option", "EPSG:28992 has this name");
+  expect_refusal(reconstruct(at("house.obj"), named("+proj=utm +zone=31 +nadgrids=https://127.0.0.1:9/x.gsb +units=m")),
+                 3, "ingest-crs-unknown", "");
+  put("link.geojson", R"({"type":"FeatureCollection","crs":{"type":"link","properties":{"href":"http://127.0.0.1:9/c",)"
+                      R"("type":"proj4"}},"features":[)" +
+                          feature(R"({"id":"a"})") + "]}");
+  expect_refusal(reconstruct(at("house.obj"), at("link.geojson")), 3, "ingest-crs-unknown", "no link is followed");
+}
+
+TEST_F(Unlucky, a_cloud_whose_header_has_no_box_is_local_like_a_mesh) {
+  // LAS 1.2 with point format 0: a house of 12 by 8 m on a field of 30 m, and zeros for the box in the header.
+  const auto put_value = [](std::string& bytes, auto value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  std::string points;
+  std::uint32_t count = 0;
+  for (int x = -9000; x <= 21000; x += 250)
+    for (int y = -9000; y <= 17000; y += 250) {
+      const bool inside = x >= 0 && x <= 12000 && y >= 0 && y <= 8000;
+      put_value(points, std::int32_t{x});
+      put_value(points, std::int32_t{y});
+      put_value(points, std::int32_t{inside ? 6000 : 0});
+      put_value(points, std::uint16_t{0});
+      points += char{9};
+      points += static_cast<char>(inside ? 6 : 2);
+      points += std::string(4, '\0');
+      ++count;
+    }
+  std::string las = "LASF" + std::string(20, '\0') + std::string("\1\2", 2) + std::string(64, '\0');
+  put_value(las, std::uint16_t{1});
+  put_value(las, std::uint16_t{2026});
+  put_value(las, std::uint16_t{227});
+  put_value(las, std::uint32_t{227});
+  put_value(las, std::uint32_t{0});
+  las += char{0};
+  put_value(las, std::uint16_t{20});
+  put_value(las, count);
+  put_value(las, count);
+  las += std::string(16, '\0');
+  for (int i = 0; i < 3; ++i) put_value(las, 0.001);
+  las += std::string(9 * 8, '\0');
+  ASSERT_EQ(las.size(), 227);
+  put("a.las", las + points);
+  put("none.geojson", geojson(polygon(square), ""));
+  const auto outcome = reconstruct(at("a.las"), at("none.geojson"));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+}
+
+/// Meshes that are beside their footprints for one reason each, with what the message names for it.
+TEST_F(Unlucky, remedies_for_what_does_not_overlap_work) {
+  const auto told = [&](const std::string& mesh, const std::string& footprints) {
+    clear();
+    const auto outcome = reconstruct(mesh, footprints);
+    EXPECT_EQ(outcome.exit, 3) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("error[ingest-no-overlap]"));
+    clear();
+    return outcome.err;
+  };
+  const auto works = [&](const Outcome& outcome) {
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    clear();
+  };
+  const std::string far = polygon("[84800,447400],[84812,447400],[84812,447408],[84800,447408],[84800,447400]");
+  put("far.geojson", geojson(far));
+  // The command that is named, as it is.
+  const auto named = [&](const std::string& words) {
+    std::smatch command;
+    ASSERT_TRUE(std::regex_search(words, command, std::regex("run: mansard (.*)\n"))) << words;
+    works(run(command[1].str()));
+  };
+  named(told(at("house.obj"), at("far.geojson")));
+  const auto there = moved_house("there.obj", [](double& x, double& y, double&) { x += 84800, y += 447400; });
+  EXPECT_EQ(reconstruct(there, at("far.geojson")).exit, 0);
+
+  auto words = told(moved_house("up.obj",
+                                [](double& x, double& y, double& z) {
+                                  x += 84800, y += 447400;
+                                  const double up = z;
+                                  z = -y, y = up;
+                                }),
+                    at("far.geojson"));
+  EXPECT_THAT(words, HasSubstr("give --up y"));
+  works(reconstruct(at("up.obj"), at("far.geojson"), "--up y"));
+
+  const struct {
+    double factor;
+    const char* words;
+  } units[] = {{1 / 0.3048, "multiply its coordinates by 0.3048"},
+               {1000, "multiply its coordinates by 0.001"},
+               {100, "multiply its coordinates by 0.01"},
+               {0.001, "multiply its coordinates by 1000"}};
+  for (const auto& [factor, remedy] : units) {
+    words =
+        told(moved_house("unit.obj", [&, f = factor](double& x, double& y,
+                                                     double& z) { x = (x + 84800) * f, y = (y + 447400) * f, z *= f; }),
+             at("far.geojson"));
+    EXPECT_THAT(words, HasSubstr(remedy));
+  }
+  works(reconstruct(there, at("far.geojson")));  // which is the mesh with its coordinates multiplied
+
+  words =
+      told(moved_house("swapped.obj", [](double& x, double& y, double&) { x += 84800, y += 447400, std::swap(x, y); }),
+           at("far.geojson"));
+  EXPECT_THAT(words, HasSubstr("correct its axis order"));
+}
+
+}  // namespace
+}  // namespace mansard::cli
