@@ -166,18 +166,26 @@ auto attributes_of(const model::LabelledSolid& model, const Raising& job, const 
   return out;
 }
 
-/// Adds a part to its building and to the building's report.
+/// Adds a part to its building.
 void take(Raising job, model::LabelledSolid model, const model::Footprint& footprint, model::Building& building,
-          report::BuildingReport& report) {
+          const report::BuildingReport& report) {
   auto attributes = attributes_of(model, job, report);
-  const double low = eaves_of(model), high = report::top_of(model.solid);
-  report.roof_min = report.parts == 0 ? low : std::min(report.roof_min, low);
-  report.roof_max = report.parts == 0 ? high : std::max(report.roof_max, high);
-  ++report.parts;
-  report.volume += solid::volume(model.solid);
-  detail::add(report.areas, label::areas(model));
-  building.parts.push_back(
-      {footprint.part_id(report.parts), std::move(job.planned.plan), std::move(model), std::move(attributes)});
+  building.parts.push_back({footprint.part_id(building.parts.size() + 1), std::move(job.planned.plan),
+                            std::move(model), std::move(attributes)});
+}
+
+/// The solids of a building, and its report of the parts that have one.
+void settle(SolidsOf made, model::Building& building, report::BuildingReport& report) {
+  drop_lost(building, made);
+  for (const auto& [id, plan, model, attributes] : building.parts) {
+    const double low = eaves_of(model), high = report::top_of(model.solid);
+    report.roof_min = report.parts == 0 ? low : std::min(report.roof_min, low);
+    report.roof_max = report.parts == 0 ? high : std::max(report.roof_max, high);
+    ++report.parts;
+    report.volume += solid::volume(model.solid);
+    detail::add(report.areas, label::areas(model));
+  }
+  detail::add_solids(building, report, std::move(made), 0);
 }
 
 /// Buildings and reports, still without parts.
@@ -348,8 +356,7 @@ auto raise_all(const model::Scene& scene, const Making& making, const Options& o
     if (auto& model = models[i]) take(std::move(job), *std::move(model), scene.feature(feature), building, report);
   }
   auto united = unite_parts(out.city.buildings);
-  for (std::size_t b = 0; b < united.size(); ++b)
-    detail::add_solids(out.city.buildings[b], out.buildings[b], std::move(united[b]), 0);
+  for (std::size_t b = 0; b < united.size(); ++b) settle(std::move(united[b]), out.city.buildings[b], out.buildings[b]);
   out.city.buildings.resize(scene.footprints.size());
   out.buildings.resize(scene.footprints.size());
   for (auto& building :

@@ -11,6 +11,20 @@
 
 namespace mansard::pipeline {
 
+void detail::drop_lost(RaisedPlans& raised, std::size_t building, SolidsOf& made) {
+  auto& parts = raised.city.buildings[building].parts;
+  for (const std::size_t p : made.lost)
+    raised.refused.push_back(base::error("solid-left-out", "no valid solid can be made of it", parts[p].id));
+  std::erase_if(raised.fell_short, [&](RaisedPlans::Short& one) {
+    if (one.building != building) return false;
+    const auto first = std::ranges::lower_bound(made.lost, one.part);
+    const bool is_lost = first != made.lost.end() && *first == one.part;
+    one.part -= static_cast<std::size_t>(first - made.lost.begin());
+    return is_lost;
+  });
+  pipeline::drop_lost(raised.city.buildings[building], made);
+}
+
 auto raise_plans(model::City city, const Options& options, const base::Run& run) -> base::Result<RaisedPlans> {
   struct Place {
     std::size_t building = 0, part = 0;
@@ -63,12 +77,16 @@ auto raise_plans(model::City city, const Options& options, const base::Run& run)
   auto united = unite_parts(out.city.buildings);
   for (std::size_t b = 0; b < united.size(); ++b) {
     auto& building = out.city.buildings[b];
+    detail::drop_lost(out, b, united[b]);
     building.solids = std::move(united[b].solids);
     for (auto& warning : united[b].warnings) {
       warning.subject = building.id;
       out.remarks.push_back(std::move(warning));
     }
   }
+  if (std::ranges::all_of(out.city.buildings, [](const auto& one) { return one.parts.empty(); }) &&
+      !out.refused.empty())
+    return base::Failure{std::move(out.refused)};
   auto overlaps = detail::overlaps(out.city.buildings, run);
   std::ranges::move(overlaps.in_all, std::back_inserter(out.remarks));
   if (run.cancelled()) return base::stopped();

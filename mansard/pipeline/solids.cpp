@@ -1,8 +1,10 @@
 #include "mansard/pipeline/solids.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 #include "mansard/base/run.hpp"
+#include "mansard/model/append.hpp"
 #include "mansard/solid/eaves.hpp"
 #include "mansard/solid/unite.hpp"
 
@@ -22,16 +24,19 @@ auto unite_parts(std::span<const std::vector<LabelledSolid*>> buildings) -> std:
   auto united = solid::unite_all(models);
   std::vector<SolidsOf> out(buildings.size());
   for (std::size_t b = 0; b < united.size(); ++b) {
-    auto& [solids, warnings, simplified] = out[b];
+    auto& [solids, warnings, simplified, lost] = out[b];
     for (auto& one : united[b].solids) {
       for (auto& p : one.of) p = numbers[b][p];
       solids.push_back({std::move(one.of), std::move(one.model)});
     }
     for (const auto p : united[b].simplified) {
       simplified.push_back(numbers[b][p]);
+      auto& model = *buildings[b][simplified.back()];
+      model = {};
       for (const auto& solid : solids)
-        if (solid.parts == std::vector{simplified.back()}) *buildings[b][simplified.back()] = solid.model;
+        if (solid.parts == std::vector{simplified.back()}) model::append(solid.model, model);
     }
+    for (const auto p : united[b].lost) lost.push_back(numbers[b][p]);
     warnings = std::move(united[b].warnings);
   }
   return out;
@@ -48,6 +53,20 @@ auto unite_parts(std::span<model::Building> buildings) -> std::vector<SolidsOf> 
     out[b] = with_eaves(std::move(out[b]), plans);
   });
   return out;
+}
+
+void renumber(SolidsOf& made) {
+  const auto number = [&](std::size_t& p) {
+    p -= static_cast<std::size_t>(std::ranges::count_if(made.lost, [&](std::size_t lost) { return lost < p; }));
+  };
+  for (auto& one : made.solids) std::ranges::for_each(one.parts, number);
+  std::ranges::for_each(made.simplified, number);
+}
+
+void drop_lost(model::Building& building, SolidsOf& made) {
+  for (const std::size_t p : made.lost | std::views::reverse)
+    building.parts.erase(building.parts.begin() + static_cast<std::ptrdiff_t>(p));
+  renumber(made);
 }
 
 namespace {

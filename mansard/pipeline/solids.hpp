@@ -14,7 +14,14 @@ struct SolidsOf {
   std::vector<model::PartsSolid> solids;
   std::vector<base::Diagnostic> warnings;  ///< without subject
   std::vector<std::size_t> simplified;     ///< parts whose model is a prism now
+  std::vector<std::size_t> lost;           ///< parts of which there is no valid solid
 };
+
+/// Numbers of parts as they are without those that are lost: nothing is measured of what no file has, so that these are
+/// no parts of the building any more.
+void renumber(SolidsOf& made);
+/// Takes the lost parts off their building, and renumbers the others.
+void drop_lost(model::Building& building, SolidsOf& made);
 
 /// Overhanging eaves where the plans of a building have them, on its solids. "pipeline-overhang" where they cannot be
 /// made, which leaves the solid there as it was. `plans`: of the building's parts.

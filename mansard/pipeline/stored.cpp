@@ -8,6 +8,7 @@
 #include "mansard/formats/input_file.hpp"
 #include "mansard/formats/written.hpp"
 #include "mansard/model/append.hpp"
+#include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/solids.hpp"
 
 namespace mansard::pipeline {
@@ -113,6 +114,7 @@ void keep_stored(RaisedPlans& raised, std::map<std::string, Stored> stored, bool
   // All of them, since walls of neighbours are put on the same points.
   auto united = unite_parts(buildings);
   for (std::size_t b = 0; b < united.size(); ++b) {
+    detail::drop_lost(raised, b, united[b]);
     buildings[b].solids = std::move(united[b].solids);
     if (changed[b] == nullptr) continue;
     for (auto& warning : united[b].warnings) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -6,6 +7,7 @@
 
 #include "mansard/geometry/change.hpp"
 #include "mansard/model/file_grid.hpp"
+#include "mansard/solid/detail/uniting.hpp"
 #include "mansard/solid/unite.hpp"
 
 namespace mansard::solid {
@@ -63,24 +65,79 @@ auto prism_over(const Polygon& outline, double base, double z) -> LabelledSolid 
   return prism_over_ground(ground, z);
 }
 
-}  // namespace
+/// m: half of how wide a place of an outline is that is closed or opened, the narrowest first.
+constexpr std::array half_widths{2e-3, 1e-2, 5e-2};
 
-auto prism_over_outline(const LabelledSolid& model, double z) -> LabelledSolid {
-  std::vector<Polygon> ground;
-  double base = z;
+struct Ground {
+  std::vector<Polygon> polygons;
+  double base = 0;  ///< m: z of its lowest corner
+};
+auto ground_of(const LabelledSolid& model, double z) -> Ground {
+  Ground out{{}, z};
   for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
     if (model.classes[f] != model::FaceClass::ground) continue;
-    ground.push_back(geometry::oriented(geometry::polygon_of(model.solid.faces[f].loops, [&](std::uint32_t v) {
-      base = std::min(base, model.solid.vertices[v].z);
+    out.polygons.push_back(geometry::oriented(geometry::polygon_of(model.solid.faces[f].loops, [&](std::uint32_t v) {
+      out.base = std::min(out.base, model.solid.vertices[v].z);
       return geometry::xy(model.solid.vertices[v]);
     })));
   }
-  for (const double by : {2e-3, 1e-2, 5e-2}) {  // m
-    const auto wide = grown(ground, by);
-    if (!wide) continue;
-    const auto closed = grown(*wide, -by);
-    if (!closed || closed->size() != 1) continue;
-    const auto prism = prism_over(closed->front(), base, z);
+  return out;
+}
+
+/// Grown, and shrunk again to the same outline.
+auto closed(const std::vector<Polygon>& polygons, double by) -> std::optional<std::vector<Polygon>> {
+  const auto wide = grown(polygons, by);
+  return wide ? grown(*wide, -by) : std::nullopt;
+}
+
+/// Shrunk, and grown again but for a millimetre: what falls apart stays apart.
+auto opened(const std::vector<Polygon>& polygons, double by) -> std::optional<std::vector<Polygon>> {
+  constexpr double apart = 1e-3;
+  const auto narrow = grown(polygons, -by);
+  return narrow ? grown(*narrow, by - apart) : std::nullopt;
+}
+
+auto area_of(const std::vector<Polygon>& polygons) -> double {
+  double sum = 0;
+  for (const auto& polygon : polygons) sum += geometry::area(polygon);
+  return sum;
+}
+
+/// Valid solids over polygons; none where one of these has none.
+auto valid_prisms(const std::vector<Polygon>& polygons, double base, double z) -> std::vector<LabelledSolid> {
+  std::vector<LabelledSolid> out;
+  for (const auto& polygon : polygons) {
+    const auto prism = prism_over(polygon, base, z);
+    if (prism.solid.faces.empty()) return {};
+    const std::array<const LabelledSolid*, 1> alone{&prism};
+    auto made = detail::united_by(alone, detail::Reach{});
+    if (made.solids.empty() || !made.warnings.empty()) return {};
+    for (auto& one : made.solids) out.push_back(std::move(one.model));
+  }
+  return out;
+}
+
+}  // namespace
+
+auto detail::prisms_without_narrow_places(const LabelledSolid& part) -> std::vector<LabelledSolid> {
+  constexpr double most_change = 0.01;  // of the area, as where a footprint is repaired
+  const double z = std::round(roof_middle(part) * model::quanta_per_metre) / model::quanta_per_metre;
+  const auto [ground, base] = ground_of(part, z);
+  const double area = area_of(ground);
+  for (const double by : half_widths)
+    for (const auto& wide_enough : {closed(ground, by), opened(ground, by)}) {
+      if (!wide_enough || std::abs(area_of(*wide_enough) - area) > most_change * area) continue;
+      if (auto prisms = valid_prisms(*wide_enough, base, z); !prisms.empty()) return prisms;
+    }
+  return {};
+}
+
+auto prism_over_outline(const LabelledSolid& model, double z) -> LabelledSolid {
+  const auto [ground, base] = ground_of(model, z);
+  for (const double by : half_widths) {
+    const auto outline = closed(ground, by);
+    if (!outline || outline->size() != 1) continue;
+    const auto prism = prism_over(outline->front(), base, z);
     if (prism.solid.faces.empty()) continue;
     const std::array<const LabelledSolid*, 1> alone{&prism};
     if (auto made = unite(alone); made.solids.size() == 1 && made.warnings.empty())

@@ -62,8 +62,8 @@ auto codes() -> std::vector<base::Code> {
       {"solid-parted", "Parts of a building share ground, which the higher one keeps.",
        "Edit the plans of its parts so that they do not overlap.", 0},
       {"solid-simplified", "A part of a building is written as a prism, because its solid is not valid in a file.",
-       "Look for edges shorter than 1 mm in its plan.", 1},
-      {"solid-left-out", "A part of a building is not written: no valid solid can be made of it.",
+       "Look for edges shorter than 1 mm, and for places narrower than that, in its plan.", 1},
+      {"solid-left-out", "A part of a building is neither written nor measured: no valid solid can be made of it.",
        "Remove the part, or widen it.", 1},
   };
 }

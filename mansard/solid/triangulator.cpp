@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/geometry/predicates.hpp"
@@ -207,12 +208,12 @@ auto Triangulator::bridge_holes() -> bool {
       from = hole.corner;
       near.clear();
       for (const std::uint32_t t : tied) near.emplace_back(length(corners_[t].at - corners_[from].at), t);
-      std::ranges::sort(near);
-      for (const auto& [distance, t] : near)
-        if (sees(from, t)) {
-          to = t;
-          break;
-        }
+      // The nearest is nearly always seen, so that few come off the heap.
+      std::ranges::make_heap(near, std::greater());
+      for (; to == none && !near.empty(); near.pop_back()) {
+        std::ranges::pop_heap(near, std::greater());
+        if (sees(from, near.back().second)) to = near.back().second;
+      }
     }
     if (to == none) return false;
     const auto before = static_cast<std::uint32_t>(corners_.size());

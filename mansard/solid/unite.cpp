@@ -89,8 +89,9 @@ class Parts {
       }
       std::ranges::for_each(made[b].simplified, number);
       made[b].warnings.insert(made[b].warnings.begin(), warnings_[b].begin(), warnings_[b].end());
-      tell_of_lost(b, made[b]);
     }
+    for (const auto& family : families_)
+      for (const auto b : family) settle_lost(b, family, made);
   }
 
  private:
@@ -106,17 +107,48 @@ class Parts {
     return false;
   }
 
-  /// Whatever went wrong above, a part is not missing without a word.
-  void tell_of_lost(std::size_t b, United& made) const {
-    if (std::ranges::any_of(made.warnings, [](const auto& warning) { return warning.code == "solid-left-out"; }))
-      return;
+  /// Whatever went wrong above, what is in no solid is made without its narrow places, or among the lost, and told.
+  void settle_lost(std::uint32_t b, const std::vector<std::uint32_t>& family, std::vector<United>& made) const {
+    United& own = made[b];
     std::set<std::size_t> in;
-    for (const One& one : made.solids) in.insert(one.of.begin(), one.of.end());
-    for (std::size_t p = 0; p < given_[b].size(); ++p)
-      if (!in.contains(p) && !covered_[b].contains(p) && detail::wider_than_points(*given_[b][p], reaches[3].near)) {
-        made.warnings.push_back(base::warning("solid-left-out", "a part of it is in none of its solids"));
-        return;
-      }
+    for (const One& one : own.solids) in.insert(one.of.begin(), one.of.end());
+    bool any = false, wide = false;
+    for (std::size_t p = 0; p < given_[b].size(); ++p) {
+      if (in.contains(p) || covered_[b].contains(p)) continue;
+      any = true;
+      std::erase(own.simplified, p);  // a solid of it gave way
+      if (replaced(b, p, family, made)) continue;
+      own.lost.push_back(p);
+      wide = wide || detail::wider_than_points(*given_[b][p], reaches[3].near);
+    }
+    if (!any) return;
+    const auto is_left_out = [](const auto& warning) { return warning.code == "solid-left-out"; };
+    if (own.lost.empty()) std::erase_if(own.warnings, is_left_out);
+    else if (wide && std::ranges::none_of(own.warnings, is_left_out))
+      own.warnings.push_back(base::warning("solid-left-out", "a part of it is in none of its solids"));
+    std::ranges::stable_sort(own.solids, {}, [](const One& one) { return one.of.front(); });
+  }
+
+  /// A part without its narrow places, where that is valid and shares no space with the solids of its family.
+  auto replaced(std::uint32_t b, std::size_t p, const std::vector<std::uint32_t>& family,
+                std::vector<United>& made) const -> bool {
+    auto prisms = detail::prisms_without_narrow_places(*given_[b][p]);
+    for (const auto& prism : prisms)
+      for (const auto other : family)
+        for (const One& one : made[other].solids)
+          if (detail::overlap(one.model, prism)) return false;
+    if (prisms.empty()) return false;
+    for (auto& prism : prisms) {
+      std::vector<std::uint32_t> from(prism.solid.faces.size(), static_cast<std::uint32_t>(p));
+      made[b].solids.push_back({{p}, std::move(prism), std::move(from)});
+    }
+    made[b].simplified.push_back(p);
+    const auto why = std::ranges::find(made[b].warnings, "solid-left-out", &base::Diagnostic::code);
+    made[b].warnings.push_back(
+        base::warning("solid-simplified",
+                      "a part became a flat-roofed prism, and narrow places of its outline were closed or opened" +
+                          (why == made[b].warnings.end() ? std::string() : ": " + why->message)));
+    return true;
   }
 
   /// The parts of a family without what they share. A part of which no valid solid is left keeps its ground, and the

@@ -19,19 +19,21 @@ struct United {
   std::vector<One> solids;                 ///< by their first part
   std::vector<base::Diagnostic> warnings;  ///< what could not be made as asked, without subject
   std::vector<std::size_t> simplified;     ///< parts that became prisms, each a solid of its own
+  std::vector<std::size_t> lost;           ///< parts of which there is no valid solid: nothing of them is written
   std::size_t loose = 0;                   ///< solids whose walls may lie off those of their neighbours by rounding
 };
 
 /// The union of parts that are vertical walls under a roof, as are those that extrude::raise() makes without
 /// overhanging eaves: what one part's wall has behind it of another part goes. Vertices are multiples of 0.1 mm.
 /// Guarantees: 1 every solid passes check() by the rules for files, written_rules(); if no valid solid can be made of
-/// a part, its solid is left out with a warning · 2 there is one solid for parts that share walls, unless their union
-/// is no 2-manifold: then they are joined neighbour by neighbour as far as they can be · 3 the volume is that of the
-/// parts within 0.1 mm times their surface, overlaps of parts counted once · 4 the same parts give the same solids.
-/// · 5 no two solids share ground. Warnings: "solid-not-united" (parts that touch stay apart, or a part with
-/// overhanging eaves stays by itself), "solid-parted" (a part is cut where a higher one stands on its ground, too),
-/// "solid-simplified" (a part became a prism, or a solid was cut back from another one), "solid-left-out".
-/// Cost: O(n log n) for n edges spread in plan; a group that has no union costs that for every two neighbours.
+/// a part, nor of its ground without what is narrower than 10 cm, it is left out with a warning and among the lost · 2
+/// there is one solid for parts that share walls, unless their union is no 2-manifold: then they are joined neighbour
+/// by neighbour as far as they can be · 3 the volume is that of the parts within 0.1 mm times their surface, overlaps
+/// of parts counted once · 4 the same parts give the same solids. · 5 no two solids share ground. Warnings:
+/// "solid-not-united" (parts that touch stay apart, or a part with overhanging eaves stays by itself), "solid-parted"
+/// (a part is cut where a higher one stands on its ground, too), "solid-simplified" (a part became a prism, or a solid
+/// was cut back from another one), "solid-left-out". Cost: O(n log n) for n edges spread in plan; a group that has no
+/// union costs that for every two neighbours.
 [[nodiscard]] auto unite(std::span<const model::LabelledSolid* const> parts) -> United;
 
 /// The same for every building of a city, over one plan of each group of buildings that touch: walls of neighbours lie

@@ -242,6 +242,22 @@ TEST(Union, says_so_where_nothing_is_left_of_a_needle) {
   EXPECT_THAT(made.solids, IsEmpty());
   ASSERT_EQ(made.warnings.size(), 1U);
   EXPECT_EQ(made.warnings[0].code, "solid-left-out");
+  EXPECT_EQ(made.lost, std::vector<std::size_t>{0});
+}
+
+TEST(Union, opens_or_closes_a_neck_that_no_solid_can_have) {
+  for (const double neck : {1e-4, 5e-4, 9e-4}) {
+    SCOPED_TRACE(neck);
+    const double near = 6 - neck;
+    const auto made =
+        united({prism({{{0, 0}, {6, 0}, {6, near}, {12, near}, {12, 12}, {near, 12}, {near, 6}, {0, 6}}, {}}, 0, 6)});
+    double volume = 0;
+    for (const auto& one : made.solids) volume += mansard::solid::volume(one.model.solid);
+    EXPECT_NEAR(volume, 432, 1);
+    EXPECT_THAT(made.lost, IsEmpty());
+    EXPECT_EQ(made.warnings.size(), made.simplified.size());
+    for (const auto& warning : made.warnings) EXPECT_EQ(warning.code, "solid-simplified");
+  }
 }
 
 TEST(Union, makes_valid_solids_of_random_grids_turned_any_way) {

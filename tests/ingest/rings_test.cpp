@@ -108,6 +108,43 @@ TEST(Rings, that_touch_are_held_apart_by_a_small_bridge) {
   }
 }
 
+TEST(Rings, that_come_within_a_millimetre_of_each_other_are_separated_as_those_that_touch) {
+  for (const double near : {1e-7, 1e-5, 1e-4, 9e-4}) {
+    SCOPED_TRACE(near);
+    const auto neck = mend({{{{0, 0},
+                              {6, 0},
+                              {6, 6 - near / 2},
+                              {12, 6 - near / 2},
+                              {12, 12},
+                              {6 - near / 2, 12},
+                              {6 - near / 2, 6},
+                              {0, 6}}}});
+    ASSERT_EQ(neck.polygons.size(), 2U);
+    for (const auto& half : neck.polygons) EXPECT_NEAR(geometry::area(half), 36, 0.02);
+    EXPECT_EQ(neck.repairs.size(), 1U);
+    // A corner near an edge, a slit, a courtyard near the outer wall and near another one.
+    const auto corner = mend({{{{0, 0}, {8, 0}, {8, 8}, {4, near}, {0, 8}}}});
+    EXPECT_EQ(corner.polygons.size(), 2U);
+    const auto slit = mend({{{{0, 0}, {8, 0}, {8, 8}, {4 + near, 8}, {4 + near, 2}, {4, 2}, {4, 8}, {0, 8}}}});
+    ASSERT_EQ(slit.polygons.size(), 1U);
+    EXPECT_NEAR(geometry::area(slit.polygons[0]), 64, 0.01);
+    const auto yards = mend({{square, {{5, near}, {7, 4}, {3, 4}}, {{5, 4 + near}, {6, 6}, {4, 6}}}});
+    ASSERT_EQ(yards.polygons.size(), 1U);
+    EXPECT_EQ(yards.polygons[0].holes.size(), 2U);
+    for (const auto& polygon : yards.polygons) EXPECT_TRUE(geometry::is_simple(polygon));
+  }
+  const auto wide = mend({{{{0, 0}, {6, 0}, {6, 5.998}, {12, 5.998}, {12, 12}, {5.998, 12}, {5.998, 6}, {0, 6}}}});
+  EXPECT_EQ(wide.polygons.size(), 1U);
+  EXPECT_THAT(wide.repairs, IsEmpty());
+}
+
+TEST(Rings, that_are_near_each_other_everywhere_stay_as_they_are) {
+  const double thin = 5e-4;  // m: a wall around a yard, which is all of it
+  const auto out = mend({{square, box(thin, thin, 10 - thin, 10 - thin)}});
+  ASSERT_EQ(out.polygons.size(), 1U);
+  EXPECT_NEAR(geometry::area(out.polygons[0]), 4 * 10 * thin, 1e-5);
+}
+
 TEST(Rings, of_a_wall_around_a_yard_drawn_in_one_stroke_enclose_the_yard) {
   // The outline goes in along a cut, round the yard and out the same way.
   const auto out =

@@ -75,9 +75,9 @@ TEST(RefineOptions, reach_the_search) {
   EXPECT_THAT(detail::cut(part, strip, options), testing::SizeIs(2));
 
   const mansard::geometry::Polygon bent{{{0, 0}, {12, 0}, {12, 5}, {5, 5}, {5, 12}, {0, 12}}, {}};
-  EXPECT_FALSE(detail::wings_of(bent, options).empty());
+  EXPECT_FALSE(detail::wing_lines_of(bent, options).empty());
   options.wings.reflex_sine = 1;
-  EXPECT_TRUE(detail::wings_of(bent, options).empty());
+  EXPECT_TRUE(detail::wing_lines_of(bent, options).empty());
 }
 
 }  // namespace

@@ -9,7 +9,18 @@ namespace {
 namespace geometry = mansard::geometry;
 
 using namespace scans;
-using refine::detail::wings_of;
+using refine::detail::wing_lines_of;
+
+struct Wing {
+  geometry::Polygon polygon;
+  double length = 0;  // m; of the line
+};
+auto wings_of(const geometry::Polygon& part, const refine::Options& options) -> std::vector<Wing> {
+  std::vector<Wing> out;
+  for (const auto& line : wing_lines_of(part, options))
+    for (auto& wing : refine::detail::wings_along(part, line, options)) out.push_back({std::move(wing), line.length()});
+  return out;
+}
 
 // An L: a bar of 20 × 8 m, and a wing of 8 × 10 m on its eastern end.
 auto l_shape() -> geometry::Ring { return {{0, 0}, {20, 0}, {20, 18}, {12, 18}, {12, 8}, {0, 8}}; }

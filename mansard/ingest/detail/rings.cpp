@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/base/disjoint_sets.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/geometry/box_index.hpp"
 #include "mansard/geometry/predicates.hpp"
 
 namespace mansard::ingest::detail {
@@ -95,6 +97,72 @@ auto nested(const Polygon& polygon) -> bool {
   return true;
 }
 
+/// Places of an outline that are nearer to each other than repeated points are one place, as they are in files: such
+/// corners become one, and an edge that a corner is as near to gets that corner. What comes of that touches itself.
+class Closing {
+ public:
+  explicit Closing(const Polygon& polygon) {
+    rings_.push_back(&polygon.outer);
+    for (const auto& hole : polygon.holes) rings_.push_back(&hole);
+    for (std::uint32_t r = 0; r < rings_.size(); ++r)
+      for (std::uint32_t i = 0; i < rings_[r]->size(); ++i) {
+        edges_.push_back({r, i, {(*rings_[r])[i], (*rings_[r])[(i + 1) % rings_[r]->size()]}});
+        first_.resize(r + 1, static_cast<std::uint32_t>(edges_.size() - 1));
+      }
+  }
+
+  /// None where no places are as near as that.
+  auto closed() -> std::optional<Polygon> {
+    std::vector<geometry::Box2> boxes;
+    for (const Edge& edge : edges_) boxes.push_back(geometry::Box2::of(edge.line));
+    const geometry::BoxIndex index(boxes);
+    base::DisjointSets same(edges_.size());
+    std::vector<std::vector<std::uint32_t>> corners(edges_.size());  // of each edge, those that it gets
+    bool any = false;
+    for (std::uint32_t v = 0; v < edges_.size(); ++v) {
+      const Point2 p = edges_[v].line.start;
+      for (const auto e : index.overlapping(geometry::Box2::of(geometry::Segment2{p, p}).grown(same_point))) {
+        const std::uint32_t end = after(e);
+        if (e == v || end == v || geometry::distance(edges_[e].line, p) >= same_point) continue;
+        any = true;
+        if (length(p - edges_[e].line.start) < same_point) same.join(v, e);
+        else if (length(p - edges_[e].line.end) < same_point) same.join(v, end);
+        else corners[e].push_back(v);
+      }
+    }
+    if (!any) return std::nullopt;
+    std::vector<Ring> rings(rings_.size());
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      const auto& [ring, corner, line] = edges_[e];
+      rings[ring].push_back(edges_[same.of(e)].line.start);
+      std::ranges::sort(corners[e], {}, [&](auto v) { return length(edges_[v].line.start - line.start); });
+      for (const auto v : corners[e]) rings[ring].push_back(edges_[same.of(v)].line.start);
+    }
+    for (auto& ring : rings) {
+      drop_repeated(ring);
+      drop_spikes(ring);
+    }
+    Polygon out{std::move(rings.front()), {}};
+    for (std::size_t r = 1; r < rings.size(); ++r)
+      if (rings[r].size() >= 3) out.holes.push_back(std::move(rings[r]));
+    return out;
+  }
+
+ private:
+  struct Edge {
+    std::uint32_t ring = 0, corner = 0;
+    Segment2 line;
+  };
+  [[nodiscard]] auto after(std::uint32_t e) const -> std::uint32_t {
+    const auto& [ring, corner, line] = edges_[e];
+    return corner + 1 < rings_[ring]->size() ? e + 1 : first_[ring];
+  }
+
+  std::vector<const Ring*> rings_;
+  std::vector<Edge> edges_;           ///< of all rings; each starts in the corner of its number
+  std::vector<std::uint32_t> first_;  ///< edge of each ring
+};
+
 auto is_good(const Polygon& polygon) -> bool { return geometry::is_simple(polygon) && nested(polygon); }
 
 auto total(const std::vector<Polygon>& polygons) -> double {
@@ -184,6 +252,20 @@ auto mended(const Polygon& polygon, const std::array<double, 2>& origin) -> base
   return out;
 }
 
+/// Good polygons for one whose rings come nearer to each other than repeated points; none where they do not, or where
+/// that leaves too little of it.
+auto where_it_nearly_touches(const Polygon& polygon, const std::array<double, 2>& origin)
+    -> std::optional<std::vector<Polygon>> {
+  if (polygon.outer.size() < 3) return std::nullopt;
+  auto closed = Closing(polygon).closed();
+  if (!closed || closed->outer.size() < 3) return std::nullopt;
+  *closed = geometry::oriented(std::move(*closed));
+  auto good = is_good(*closed) ? base::Result<std::vector<Polygon>>(std::vector{*closed}) : mended(*closed, origin);
+  const double area = std::abs(geometry::area(polygon));
+  if (!good || good->empty() || std::abs(total(*good) - area) > area_change * area) return std::nullopt;
+  return std::move(*good);
+}
+
 void note(Repaired& out, const std::string& words) {
   if (std::ranges::find(out.repairs, words) == out.repairs.end()) out.repairs.push_back(words);
 }
@@ -231,6 +313,11 @@ auto repair(const std::vector<formats::RawPolygon>& parts, const std::array<doub
       else note(out, "a hole without area was left out");
     }
     polygon = geometry::oriented(std::move(polygon));
+    if (auto separated = where_it_nearly_touches(polygon, origin)) {
+      note(out, "rings that cross, touch or come within 1 mm of each other were separated");
+      out.polygons.insert(out.polygons.end(), separated->begin(), separated->end());
+      continue;
+    }
     if (polygon.outer.size() >= 3 && is_good(polygon)) {
       if (geometry::area(polygon) >= least_area) out.polygons.push_back(std::move(polygon));
       else note(out, "a part without area was left out");
@@ -245,7 +332,7 @@ auto repair(const std::vector<formats::RawPolygon>& parts, const std::array<doub
       return out;
     }
     if (repaired->empty()) note(out, "a part without area was left out");
-    else note(out, "rings that cross or touch a little were separated");
+    else note(out, "rings that cross, touch or come within 1 mm of each other were separated");
     out.polygons.insert(out.polygons.end(), repaired->begin(), repaired->end());
   }
   unite_overlapping(out);

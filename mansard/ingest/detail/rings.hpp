@@ -19,8 +19,8 @@ struct Repaired {
 };
 
 /// Local frame; `origin` is added to the coordinates that messages name. Repeated points (closer than 1 mm) go
-/// silently; spikes and small crossings are repaired as long as the area stays within 1 %; rings that touch are bridged
-/// by 5 cm.
+/// silently; spikes, small crossings and places where rings come within 1 mm of each other are repaired as long as the
+/// area stays within 1 %; rings that touch are bridged by 5 cm.
 [[nodiscard]] auto repair(const std::vector<formats::RawPolygon>& parts, const std::array<double, 2>& origin)
     -> Repaired;
 

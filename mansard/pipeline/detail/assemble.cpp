@@ -63,16 +63,13 @@ void measure_again(model::Part& part, const std::string& code, double z0) {
 void add_solids(model::Building& building, report::BuildingReport& report, SolidsOf made, double z0) {
   building.solids = std::move(made.solids);
   for (const std::size_t p : made.simplified) measure_again(building.parts[p], "solid-simplified", z0);
-  if (!made.simplified.empty()) {
-    report.volume = 0;
-    for (const auto& part : building.parts) report.volume += solid::volume(part.model.solid);
-  }
   for (auto& warning : made.warnings) {
     warning.subject = building.id;
     if (warning.code != "solid-not-united" && warning.code != "solid-parted" && warning.code != "pipeline-overhang")
       report.outcome = report::Outcome::fallback;
     report.reasons.push_back(std::move(warning));
   }
+  if (building.parts.empty()) report.outcome = report::Outcome::refused;
 }
 
 namespace {

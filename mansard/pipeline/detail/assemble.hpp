@@ -33,6 +33,9 @@ struct Finished {
 /// height of the frame's origin, for attributes.
 void add_solids(model::Building& building, report::BuildingReport& report, SolidsOf made, double z0);
 
+/// Takes the parts of a building that are lost off it and off those that fell short; they are refused.
+void drop_lost(RaisedPlans& raised, std::size_t building, SolidsOf& made);
+
 /// The attributes of the whole building, by its report and its solids, in the heights of a frame with its origin at
 /// `z0`. `measures` are those that took the mesh, or the levels of detail. After everything else is known of it.
 void add_attributes(model::Building& building, const report::BuildingReport& report, const model::Attributes& measures,

@@ -209,8 +209,8 @@ auto refused(const block::Block& block, const block::Options& options) -> BlockR
 
 namespace {
 
-/// The solids of every feature. What stands beyond the block does not matter: its parts come no nearer than footprints
-/// that do not touch.
+/// The solids of every feature; parts without one go. What stands beyond the block does not matter: its parts come no
+/// nearer than footprints that do not touch.
 auto unite(std::vector<PartResult>& parts) -> std::vector<std::pair<std::size_t, SolidsOf>> {
   std::vector<std::size_t> features;
   std::vector<std::vector<model::LabelledSolid*>> models;
@@ -223,7 +223,15 @@ auto unite(std::vector<PartResult>& parts) -> std::vector<std::pair<std::size_t,
   }
   auto united = unite_parts(models);
   std::vector<std::pair<std::size_t, SolidsOf>> out;
-  for (std::size_t i = 0; i < features.size(); ++i) out.emplace_back(features[i], std::move(united[i]));
+  std::vector<PartResult> kept;
+  auto part = parts.begin();
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    for (std::size_t p = 0; p < models[i].size(); ++p, ++part)
+      if (!std::ranges::binary_search(united[i].lost, p)) kept.push_back(std::move(*part));
+    renumber(united[i]);
+    out.emplace_back(features[i], std::move(united[i]));
+  }
+  parts = std::move(kept);
   return out;
 }
 
@@ -305,7 +313,7 @@ auto measured(const block::Block& block, const rays::Scene& mesh, const rays::Sc
     const auto seen = report::coverage(known, member.polygons, options.roof_grid);
     attributes.emplace_back("ms_nodata_share", seen.missing);
     attributes.emplace_back("ms_nodata_radius", seen.radius);
-    if (made != solids.end()) doubts[m] = partly_seen(member, seen.missing, options);
+    if (!building.solids.empty()) doubts[m] = partly_seen(member, seen.missing, options);
   });
   for (std::size_t m = 0; m < doubts.size(); ++m)
     if (doubts[m]) out.doubts.emplace_back(block.members[m].feature, *std::move(doubts[m]));
@@ -356,8 +364,8 @@ auto run_block(const block::Block& block, const Options& asked, const base::Run&
     base::parallel_for(parts.size(), [&](std::size_t i) { measure(parts[i], mesh, options); });
     report.times.stages.push_back({"label", labelling.stop()});
   }
-  report.parts = parts.size();
   out.solids = stage("unite", tell, report, [&] { return unite(parts); });
+  report.parts = parts.size();
   if (options.profile.overhangs != profile::Overhangs::off)
     out.solids = stage("overhangs", tell, report,
                        [&] { return with_overhangs(shown.block().mesh, options, run, parts, std::move(out.solids)); });

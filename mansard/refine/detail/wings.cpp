@@ -77,10 +77,9 @@ auto with_wedges(const std::vector<Polygon>& side, Point2 along, const std::vect
 
 }  // namespace
 
-auto wings_of(const Polygon& part, const Options& all) -> std::vector<Wing> {
-  const auto& options = all.wings;
-  std::vector<Wing> out;
-  const auto reflex = [&](Point2 before, Point2 after) { return cross(before, after) < -options.reflex_sine; };
+auto wing_lines_of(const Polygon& part, const Options& options) -> std::vector<WingLine> {
+  std::vector<WingLine> out;
+  const auto reflex = [&](Point2 before, Point2 after) { return cross(before, after) < -options.wings.reflex_sine; };
   each_ring(part, [&](const Ring& ring) {
     const std::size_t n = ring.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -91,21 +90,29 @@ auto wings_of(const Polygon& part, const Options& all) -> std::vector<Wing> {
         if (const auto line = line_on(part, ring[(i + 1) % n], along)) lines.push_back(*line);
       if (reflex(direction(i + n - 1), along))
         if (const auto line = line_on(part, ring[i], -1 * along)) lines.push_back(*line);
-      if (lines.empty()) continue;
-      const auto longest = std::ranges::max_element(lines, {}, length_of);
-      const auto add = [&](const std::vector<Polygon>& pieces) {
-        if (pieces.size() != 1) return false;
-        out.push_back({pieces.front(), 0.5 * (longest->start + longest->end), length_of(*longest)});
-        return true;
-      };
-      bool straight = false;  // the other side of a line is the same cut
-      for (const Point2 way : {along, -1 * along}) {
-        const auto side = side_of(part, ring[i], way, lines, all.pieces);
-        straight = straight || add(side);
-        add(with_wedges(side, way, lines, all.pieces));
-      }
+      if (!lines.empty()) out.push_back({ring[i], along, std::move(lines)});
     }
   });
+  return out;
+}
+
+auto WingLine::longest() const -> const Segment2& { return *std::ranges::max_element(lines, {}, length_of); }
+auto WingLine::middle() const -> Point2 { return 0.5 * (longest().start + longest().end); }
+auto WingLine::length() const -> double { return length_of(longest()); }
+
+auto wings_along(const Polygon& part, const WingLine& line, const Options& options) -> std::vector<Polygon> {
+  std::vector<Polygon> out;
+  const auto add = [&](const std::vector<Polygon>& pieces) {
+    if (pieces.size() != 1) return false;
+    out.push_back(pieces.front());
+    return true;
+  };
+  bool straight = false;  // the other side of a line is the same cut
+  for (const Point2 way : {line.along, -1 * line.along}) {
+    const auto side = side_of(part, line.on, way, line.lines, options.pieces);
+    straight = straight || add(side);
+    add(with_wedges(side, way, line.lines, options.pieces));
+  }
   return out;
 }
 

@@ -161,14 +161,24 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
 
 /// The same of the cuts between wings, those with most misfit about them.
 auto Work::into_wings(const Piece& piece, double least_gain) const -> std::vector<Piece> {
-  std::vector<Proposal> wings;
-  for (auto& wing : wings_of(piece.site.polygon, options_)) {
-    const double about = misfit_about(piece, wing.middle, wing.length);
-    if (about >= least_gain) wings.push_back({std::move(wing.polygon), about, 0, "a wing", true});
+  struct Promising {
+    WingLine line;
+    double about = 0;  // m²·m²
+  };
+  std::vector<Promising> lines;
+  for (auto& line : wing_lines_of(piece.site.polygon, options_)) {
+    const double about = misfit_about(piece, line.middle(), line.length());
+    if (about >= least_gain) lines.push_back({std::move(line), about});
   }
   rank(
-      wings, [](const Proposal& wing) { return -wing.gain; }, options_.same_cost);
+      lines, [](const Promising& one) { return -one.about; }, options_.same_cost);
   const auto most = static_cast<std::size_t>(options_.wings.max_cuts);
+  std::vector<Proposal> wings;
+  for (const auto& [line, about] : lines) {
+    if (wings.size() >= most) break;
+    for (auto& wing : wings_along(piece.site.polygon, line, options_))
+      wings.push_back({std::move(wing), about, 0, "a wing", true});
+  }
   if (wings.size() > most) wings.resize(most);
   return cheapest(piece, wings, piece.roof.cost);
 }
