@@ -72,7 +72,7 @@ struct Ground {
   std::vector<Polygon> polygons;
   double base = 0;  ///< m: z of its lowest corner
 };
-auto ground_of(const LabelledSolid& model, double z) -> Ground {
+auto ground_polygons(const LabelledSolid& model, double z) -> Ground {
   Ground out{{}, z};
   for (std::size_t f = 0; f < model.solid.faces.size(); ++f) {
     if (model.classes[f] != model::FaceClass::ground) continue;
@@ -85,13 +85,13 @@ auto ground_of(const LabelledSolid& model, double z) -> Ground {
 }
 
 /// Grown, and shrunk again to the same outline.
-auto closed(const std::vector<Polygon>& polygons, double by) -> std::optional<std::vector<Polygon>> {
+auto without_gaps(const std::vector<Polygon>& polygons, double by) -> std::optional<std::vector<Polygon>> {
   const auto wide = grown(polygons, by);
   return wide ? grown(*wide, -by) : std::nullopt;
 }
 
 /// Shrunk, and grown again but for a millimetre: what falls apart stays apart.
-auto opened(const std::vector<Polygon>& polygons, double by) -> std::optional<std::vector<Polygon>> {
+auto without_necks(const std::vector<Polygon>& polygons, double by) -> std::optional<std::vector<Polygon>> {
   constexpr double apart = 1e-3;
   const auto narrow = grown(polygons, -by);
   return narrow ? grown(*narrow, by - apart) : std::nullopt;
@@ -122,10 +122,10 @@ auto valid_prisms(const std::vector<Polygon>& polygons, double base, double z) -
 auto detail::prisms_without_narrow_places(const LabelledSolid& part) -> std::vector<LabelledSolid> {
   constexpr double most_change = 0.01;  // of the area, as where a footprint is repaired
   const double z = std::round(roof_middle(part) * model::quanta_per_metre) / model::quanta_per_metre;
-  const auto [ground, base] = ground_of(part, z);
+  const auto [ground, base] = ground_polygons(part, z);
   const double area = area_of(ground);
   for (const double by : half_widths)
-    for (const auto& wide_enough : {closed(ground, by), opened(ground, by)}) {
+    for (const auto& wide_enough : {without_gaps(ground, by), without_necks(ground, by)}) {
       if (!wide_enough || std::abs(area_of(*wide_enough) - area) > most_change * area) continue;
       if (auto prisms = valid_prisms(*wide_enough, base, z); !prisms.empty()) return prisms;
     }
@@ -133,9 +133,9 @@ auto detail::prisms_without_narrow_places(const LabelledSolid& part) -> std::vec
 }
 
 auto prism_over_outline(const LabelledSolid& model, double z) -> LabelledSolid {
-  const auto [ground, base] = ground_of(model, z);
+  const auto [ground, base] = ground_polygons(model, z);
   for (const double by : half_widths) {
-    const auto outline = closed(ground, by);
+    const auto outline = without_gaps(ground, by);
     if (!outline || outline->size() != 1) continue;
     const auto prism = prism_over(outline->front(), base, z);
     if (prism.solid.faces.empty()) continue;
