@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 
 #include "apps/cli/catalogue.hpp"
@@ -18,7 +19,11 @@
 #include "mansard/formats/las_points.hpp"
 #include "mansard/formats/plans.hpp"
 #include "mansard/picture/picture.hpp"
+#include "mansard/pipeline/solids.hpp"
 #include "mansard/pipeline/stored.hpp"
+#include "mansard/report/attributes.hpp"
+#include "mansard/report/measures.hpp"
+#include "mansard/solid/solid.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -144,12 +149,37 @@ auto stands_on_another(const model::City& city) -> bool {
   });
 }
 
+/// Buildings with what is measured of them, as of models that are reconstructed: what those are compared with.
+auto measured(model::City city, const simulate::Scan& scan) -> model::City {
+  const auto z0 = static_cast<double>(city.frame.origin[2]);
+  auto united = pipeline::unite_parts(city.buildings);
+  constexpr double storey = 3;  // m; the default of roof.level_height
+  for (std::size_t b = 0; b < city.buildings.size(); ++b) {
+    auto& building = city.buildings[b];
+    model::Building plain{building.id, {}, building.footprint, building.ground, building.parts, building.solids};
+    if (plain.solids.empty()) plain.solids = std::move(united[b].solids);
+    auto found = report::building_measures(plain, z0, storey);
+    double volume = 0, top = building.ground;
+    for (const auto* solid : report::solids_of(plain))
+      volume += solid::volume(solid->solid), top = std::max(top, report::top_of(solid->solid));
+    const auto ground = b < scan.at_walls.size() ? scan.at_walls[b] : std::nullopt;
+    found.emplace_back("ms_h_ground", z0 + (ground ? ground->lowest : building.ground));
+    if (ground) found.emplace_back("ms_h_ground_mean", z0 + ground->mean);
+    if (ground) found.emplace_back("ms_h_ground_max", z0 + ground->highest);
+    found.emplace_back("ms_h_roof_max", z0 + top);
+    found.emplace_back("ms_volume_lod22", volume);
+    report::round_measures(found);
+    std::ranges::move(found, std::back_inserter(building.attributes));
+  }
+  return city;
+}
+
 /// The truth as models and plans. Where a solid of a file is simpler than what is scanned, that is said.
-auto add_models(const model::City& city, std::vector<std::pair<std::string, std::string>>& files, Progress& progress)
-    -> base::Result<void> {
+auto add_models(const model::City& city, const simulate::Scan& scan,
+                std::vector<std::pair<std::string, std::string>>& files, Progress& progress) -> base::Result<void> {
   const auto solids = stands_on_another(city) ? formats::Solids::part : formats::Solids::building;
   std::vector<base::Diagnostic> warnings;
-  auto cityjson = formats::cityjson(city, solids, &warnings);
+  auto cityjson = formats::cityjson(measured(city, scan), solids, &warnings);
   if (!cityjson) return cityjson.failure();
   std::erase_if(warnings,
                 [](const auto& warning) { return warning.code == "solid-not-united"; });  // as parts: as exact
@@ -192,7 +222,8 @@ auto write_all(const SimulateRequest& request, const simulate::Options& options,
       {"footprints.geojson", simulate::geojson(*footprints, truth.city.frame)},
       {"truth.geojson", simulate::geojson(simulate::true_footprints(truth), truth.city.frame)},
       {"truth.json", simulate::truth_json(truth, *footprints, options, source_of(request), scan->crowns, planted)}};
-  if (auto added = truth.model ? add_copy(request, known, files) : add_models(truth.city, files, progress); !added)
+  if (auto added = truth.model ? add_copy(request, known, files) : add_models(truth.city, *scan, files, progress);
+      !added)
     return added;
   if (points) files.emplace_back("points.las", std::move(*points));
   if (request.picture) {

@@ -11,6 +11,7 @@
 #include "lab/simulate/simulate.hpp"
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/rays/rays.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::simulate {
@@ -67,6 +68,46 @@ auto accuracy_of(const detail::Roughness& rough, const ScanOptions& options) -> 
     out.correlated_area = (noise * correlated_area(options.noise_length, options.resolution) +
                            bulge * correlated_area(options.bulge_length, options.resolution)) /
                           (noise + bulge);
+  return out;
+}
+
+/// Along the sides of the bases, but for those that have another base beside them.
+auto ground_at_walls(const Surface& surface, const detail::Terrain& terrain, const ScanOptions& options)
+    -> std::vector<std::optional<Scan::AtWalls>> {
+  constexpr double step = 1, beside = 0.15;  // m; farther than the cracks between outlines that were rounded
+  const auto grounded = detail::on_ground(surface);
+  geometry::Mesh floor{surface.mesh.vertices, {}, {}};
+  for (std::size_t t = 0; t < grounded.size(); ++t)
+    if (grounded[t]) floor.triangles.push_back(surface.mesh.triangles[t]);
+  const rays::Scene floors(floor);
+  std::vector<std::optional<Scan::AtWalls>> out;
+  std::vector<double> lengths;
+  for (std::size_t t = 0; t < grounded.size(); ++t) {
+    if (!grounded[t]) continue;
+    const auto& corners = surface.mesh.triangles[t];
+    const auto building = surface.buildings[t];
+    if (building >= out.size()) out.resize(building + 1), lengths.resize(building + 1);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = [&](std::size_t k) { return surface.mesh.vertices[corners[(i + k) % 3]]; };
+      const geometry::Point3 a = at(0), side = at(1) - a;
+      const double length = geometry::length(xy(side));
+      if (!(length > 0)) continue;
+      auto outward = (1 / length) * left_of(xy(side));
+      if (dot(outward, xy(at(2) - a)) > 0) outward = -1.0 * outward;
+      const double pieces = std::ceil(length / step);
+      for (double k = 0; k < pieces; ++k) {
+        const auto p = a + ((k + 0.5) / pieces) * side;
+        if (floors.top(xy(p) + beside * outward)) continue;
+        const double z = keeps_faces(options) ? p.z : terrain.at(xy(p)), weight = length / pieces;
+        auto& found = out[building];
+        if (!found) found = {z, 0, z};
+        *found = {std::min(found->lowest, z), found->mean + weight * z, std::max(found->highest, z)};
+        lengths[building] += weight;
+      }
+    }
+  }
+  for (std::size_t b = 0; b < out.size(); ++b)
+    if (out[b]) out[b]->mean /= lengths[b];
   return out;
 }
 
@@ -127,7 +168,11 @@ auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed
 
   run.report("simulate", "surroundings", 0);
   const detail::Terrain terrain(surface, area, options, seed_for(seed, ground));
-  if (keeps_faces(options)) return detail::exact_scan(surface, terrain, area, run);
+  if (keeps_faces(options)) {
+    auto exact = detail::exact_scan(surface, terrain, area, run);
+    if (exact) exact->at_walls = ground_at_walls(surface, terrain, options);
+    return exact;
+  }
   const detail::Nearest nearest(surface);
   auto around = detail::surroundings_of(surface, nearest, terrain, area, options, seed_for(seed, things));
   const detail::World world{surface, terrain, around.objects, area};
@@ -153,6 +198,7 @@ auto scan(const Surface& surface, const ScanOptions& options, std::uint64_t seed
   auto out = detail::torn(*mesh, labels, std::move(lost), surface, options, seed_for(seed, tiles));
   out.crowns = std::move(around.crowns);
   out.planted = accuracy_of(rough, options);
+  out.at_walls = ground_at_walls(surface, terrain, options);
   run.report("simulate", {}, 1);
   return out;
 }

@@ -223,6 +223,11 @@ struct Scan {
   std::vector<std::uint32_t> buildings;  ///< per triangle; none for ground and other
   std::vector<Crown> crowns{};           ///< by building, those beside it first
   Accuracy planted{};
+  /// z of the ground along the open walls of a building, without trees and cars; its mean is by length.
+  struct AtWalls {
+    double lowest = 0, mean = 0, highest = 0;
+  };
+  std::vector<std::optional<AtWalls>> at_walls{};  ///< by building; none of one without open walls
 };
 
 /// A mesh as photogrammetry or laser scanning would give it of the buildings, the ground they stand on, and the trees,

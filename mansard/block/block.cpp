@@ -15,6 +15,7 @@
 #include "mansard/block/detail/ground.hpp"
 #include "mansard/block/detail/near.hpp"
 #include "mansard/block/detail/neighbours.hpp"
+#include "mansard/block/detail/walls.hpp"
 #include "mansard/geometry/change.hpp"
 #include "mansard/geometry/mesh_part.hpp"
 
@@ -149,6 +150,7 @@ class Grounds {
   struct Found {
     double z = 0;
     GroundSource source = GroundSource::unknown;
+    std::optional<AtWalls> at_walls{};
   };
   [[nodiscard]] auto of(std::size_t member) -> Found {
     const auto& footprint = scene_.feature(block_.members[member].feature);
@@ -156,12 +158,15 @@ class Grounds {
     const auto here = [&](double z) { return z - static_cast<double>(scene_.frame.origin[2]) - origin_.z; };
     if (footprint.ground) return {here(*footprint.ground), GroundSource::attribute};
     if (scene_.terrain)
-      if (const auto z = detail::terrain_along(*scene_.terrain, around_.shapes[member], origin_, options_))
-        return {*z, GroundSource::terrain};
+      if (const auto found = detail::terrain_at_walls(around_.shapes[member], *scene_.terrain, origin_, options_))
+        return {found->lowest, GroundSource::terrain, found->walls};
     const double share = options_.ground_percentile / 100;
     if (!samples_.empty())
-      if (const auto z = detail::percentile(samples_[member], share, options_.ground_area))
+      if (const auto z = detail::percentile(samples_[member], share, options_.ground_area)) {
+        if (const auto found = detail::terrain_at_walls(around_.shapes[member], samples_[member], options_))
+          return {found->lowest, GroundSource::scan, found->walls};
         return {*z, GroundSource::scan};
+      }
     if (const auto z = of_neighbours()) return {*z, GroundSource::neighbours};
     if (options_.ground_height) return {here(*options_.ground_height), GroundSource::option};
     const auto low = lowest();
@@ -225,6 +230,7 @@ void set_ground(Block& block, const model::Scene& scene, const Surroundings& aro
     member.ground_source = found.source;
     if (found.source == GroundSource::unknown) block.ground_known = false;
     else member.ground = model::rounded(found.z, ground_unit);
+    member.at_walls = found.at_walls;
     heights.push_back(member.ground);
   }
   block.ground = heights.empty() ? 0 : base::mean_median(std::move(heights));
@@ -235,6 +241,7 @@ void move(Block& block, Point3 by) {
   for (auto& member : block.members) {
     shift(member.polygons, xy(by));
     member.ground += by.z;
+    if (member.at_walls) member.at_walls->mean += by.z, member.at_walls->highest += by.z;
   }
   shift(block.outline, xy(by));
   shift(block.beside, xy(by));

@@ -35,12 +35,19 @@ inline constexpr double beside_reach = 3;
 /// As in attributes: "terrain".
 [[nodiscard]] auto to_string(GroundSource source) -> std::string_view;
 
+/// The terrain at the walls of a building, where it is seen.
+struct AtWalls {
+  double mean = 0, highest = 0;  ///< z along its open walls
+  double error = 0;              ///< m; standard error of the lowest
+};
+
 /// One footprint of a block.
 struct Member {
   std::size_t feature = 0;  ///< number in the scene: Scene::feature
   std::vector<geometry::Polygon> polygons;
-  double ground = 0;  ///< z of the ground around it, metres
+  double ground = 0;  ///< z of its ground, metres: where it is seen the lowest at its walls
   GroundSource ground_source = GroundSource::scan;
+  std::optional<AtWalls> at_walls{};  ///< where terrain or scan shows it
 };
 
 struct Block {
@@ -84,8 +91,9 @@ struct Options {
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
-/// The ground is what the footprint's attribute says, else the scene's terrain where that is known along the outline,
-/// else what the mesh shows around it, else one of the others of GroundSource, rounded to 2⁻¹⁰ m. Footprints with a
+/// The ground is what the footprint's attribute says, else the lowest of the scene's terrain at its walls where that is
+/// known along the outline, else the lowest that the mesh shows there (a percentile of what is around it where it shows
+/// nothing at the walls), else one of the others of GroundSource, rounded to 2⁻¹⁰ m. Footprints with a
 /// defect are left out, and so are blocks of surroundings alone. Guarantees: 1 every usable footprint is in exactly one
 /// block · 2 blocks and members are ordered by feature number, whatever the thread count · 3 every triangle of the
 /// scene within the padding of a block's outline is in that block's mesh, and none entirely farther away · 4 a block

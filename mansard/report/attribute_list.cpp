@@ -42,7 +42,14 @@ auto attributes() -> std::vector<formats::Attribute> {
       "Points of the point clouds over the footprint per square metre of it, without noise and points that are "
       "withheld; "
       "counted in cells of 1 m; only with point clouds and footprints that were given.");
-  add("ms_h_ground", both, "number", "m", "z of the ground; of a building where it has parts.");
+  add("ms_h_ground", both, "number", "m",
+      "z of the base: the lowest of the terrain at the walls, where terrain or scan shows it; of a building where it "
+      "has "
+      "parts.");
+  const char* at_walls = "only where ms_ground_source is terrain or scan and the terrain at the walls can be seen.";
+  add("ms_h_ground_mean", building, "number", "m",
+      std::string("z of the terrain at the walls, mean by length; ") + at_walls);
+  add("ms_h_ground_max", building, "number", "m", std::string("z of the highest terrain at the walls; ") + at_walls);
   add("ms_ground_source", building, "string", "",
       "What the height of the ground comes from: attribute, terrain (a terrain model or ground points), scan (level "
       "surface around the building), neighbours (around its block), option, outline (z of the footprint), lowest (the "
@@ -105,6 +112,21 @@ auto attributes() -> std::vector<formats::Attribute> {
   all.push_back(
       {"ms_texture_known", "texture", building, "number", "",
        "Share of the area of roofs and outer walls whose colour the scan shows, 0 to 1; only with textures."});
+  const auto error = [&](const char* name, const char* unit, const std::string& of) {
+    add(name, building, "number", unit,
+        "Standard error of " + of + "; absent where the scan does not show what it rests on, and of edited models.");
+  };
+  error("ms_h_ground_se", "m", "ms_h_ground");
+  error("ms_h_roof_min_se", "m", "ms_h_roof_min");
+  error("ms_h_roof_50p_se", "m", "ms_h_roof_50p");
+  error("ms_h_roof_70p_se", "m", "ms_h_roof_70p");
+  error("ms_h_roof_max_se", "m", "ms_h_roof_max");
+  error("ms_h_eave_se", "m", "ms_h_eave");
+  error("ms_h_ridge_se", "m", "ms_h_ridge");
+  error("ms_volume_lod22_se", "m³", "ms_volume_lod22");
+  error("ms_area_ground_se", "m²", "ms_area_ground");
+  error("ms_area_wall_se", "m²", "ms_area_wall");
+  error("ms_area_party_wall_se", "m²", "ms_area_party_wall");
   add("ms_area_footprint", building, "number", "m²", "Area of the footprint as it was read.");
   add("ms_area_ground", building, "number", "m²", "Area of the ground of the model.");
   add("ms_area_roof_flat", both, "number", "m²", "Area of roof that is level within 5°.");

@@ -207,7 +207,10 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
   add_quality(to_string(outcome), failed_checks(to_string(outcome), levels, ground == nullptr ? "" : *ground),
               std::nullopt, now);
   constexpr double storey = 3;  // m; the default of roof.level_height
-  for (auto& measure : building_measures(plain, z0, storey)) now.push_back(std::move(measure));
+  // The ground was not edited.
+  const auto* mean = value_of<double>(building.attributes, "ms_h_ground_mean");
+  for (auto& measure : building_measures(plain, z0, storey, mean ? std::optional(*mean - z0) : std::nullopt))
+    now.push_back(std::move(measure));
   for (auto& measure : levels) now.push_back(std::move(measure));
   if (!building.parts.empty()) {
     now.emplace_back("ms_h_ground", z0 + building.ground);
@@ -220,6 +223,9 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
   std::vector<std::string> names;
   for (const auto* name : of_building)
     if (!name_is_of(plain.attributes, name)) names.emplace_back(name);
+  // Nor do standard errors stay: they are of the model that was there before.
+  for (const auto& [name, value] : building.attributes)
+    if (name.starts_with("ms_") && name.ends_with("_se")) names.push_back(name);
   for (const auto& level : level_names())
     for (const auto* name : {level.volume, level.surface, level.rmse, level.val3dity}) names.emplace_back(name);
   return with(building.attributes, names, std::move(now));

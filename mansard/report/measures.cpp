@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 
 #include "mansard/base/disjoint_sets.hpp"
 #include "mansard/evaluate/evaluate.hpp"
@@ -20,31 +21,6 @@ namespace {
 
 using geometry::Point2;
 using model::LabelledSolid;
-
-auto solids_of(const model::Building& building) -> std::vector<const LabelledSolid*> {
-  std::vector<const LabelledSolid*> out;
-  for (const auto& solid : building.solids) out.push_back(&solid.model);
-  if (out.empty())
-    for (const auto& part : building.parts)
-      if (!part.model.solid.faces.empty()) out.push_back(&part.model);
-  return out;
-}
-
-/// Several solids side by side, for questions that concern their faces.
-auto together(const std::vector<const LabelledSolid*>& solids) -> LabelledSolid {
-  LabelledSolid out;
-  for (const auto* one : solids) {
-    const auto first = static_cast<std::uint32_t>(out.solid.vertices.size());
-    out.solid.vertices.insert(out.solid.vertices.end(), one->solid.vertices.begin(), one->solid.vertices.end());
-    for (model::Face face : one->solid.faces) {
-      for (auto& loop : face.loops)
-        for (auto& v : loop) v += first;
-      out.solid.faces.push_back(std::move(face));
-    }
-    out.classes.insert(out.classes.end(), one->classes.begin(), one->classes.end());
-  }
-  return out;
-}
 
 struct RoofLines {
   std::optional<double> eave;  ///< z
@@ -98,36 +74,51 @@ auto roof_line(const LabelledSolid& model, const solid::Line& line) -> RoofLine 
   return is_flat || (left == roof ? in_left : in_right) > rises ? RoofLine::eave : RoofLine::other;
 }
 
+}  // namespace
+
+auto eaves_of(const std::vector<const LabelledSolid*>& solids) -> std::vector<Eave> {
+  std::vector<Eave> eaves;
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    const auto& solid = solids[s]->solid;
+    const auto lines = solid::lines(solid);
+    if (!lines) continue;
+    for (const auto& line : *lines) {
+      if (roof_line(*solids[s], line) != RoofLine::eave) continue;
+      // A corner's height and lengths in whole units of the files: the same wherever the building stands. Sums of whole
+      // numbers are exact, so that no rounding decides where two heights have half of the length each.
+      constexpr double units_per_metre = 1e4;
+      const auto a = solid.vertices[line.from], b = solid.vertices[line.to];
+      const auto whole = [](double metres) { return std::round(metres * units_per_metre); };
+      eaves.push_back({s, line, std::min(a.z, b.z), std::round(std::hypot(whole(b.x - a.x), whole(b.y - a.y)))});
+    }
+  }
+  std::ranges::sort(eaves, {},
+                    [](const Eave& e) { return std::tuple(e.z, e.length, e.solid, e.line.from, e.line.to); });
+  return eaves;
+}
+
+auto eave_at(const std::vector<Eave>& eaves, double share) -> const Eave& {
+  double all = 0, before = 0;
+  for (const auto& eave : eaves) all += eave.length;
+  for (const auto& eave : eaves)
+    if ((before += eave.length) >= share * all) return eave;
+  return eaves.back();
+}
+
+namespace {
+
 /// The height of the eaves is that below which half of their length lies.
 auto lines_of(const std::vector<const LabelledSolid*>& solids) -> RoofLines {
   RoofLines out;
-  std::vector<std::pair<double, double>> eaves;  // z, length
-  double all = 0;
   for (const auto* one : solids) {
     const auto lines = solid::lines(one->solid);
     if (!lines) continue;
     std::vector<solid::Line> ridges;
-    for (const auto& line : *lines) {
-      const auto kind = roof_line(*one, line);
-      if (kind == RoofLine::ridge) ridges.push_back(line);
-      if (kind != RoofLine::eave) continue;
-      // A corner's height and lengths in whole units of the files: the same wherever the building stands. Sums of whole
-      // numbers are exact, so that no rounding decides where two heights have half of the length each.
-      constexpr double units_per_metre = 1e4;
-      const auto a = one->solid.vertices[line.from], b = one->solid.vertices[line.to];
-      const auto whole = [](double metres) { return std::round(metres * units_per_metre); };
-      eaves.emplace_back(std::min(a.z, b.z), std::round(std::hypot(whole(b.x - a.x), whole(b.y - a.y))));
-      all += eaves.back().second;
-    }
+    for (const auto& line : *lines)
+      if (roof_line(*one, line) == RoofLine::ridge) ridges.push_back(line);
     out.ridges += static_cast<std::int64_t>(count_ridges(one->solid, ridges));
   }
-  std::ranges::sort(eaves);
-  double before = 0;
-  for (const auto& [z, length] : eaves) {
-    out.eave = z;
-    before += length;
-    if (before >= 0.5 * all) break;
-  }
+  if (const auto eaves = eaves_of(solids); !eaves.empty()) out.eave = eave_at(eaves, 0.5).z;
   return out;
 }
 
@@ -163,7 +154,32 @@ auto has(const model::Attributes& attributes, std::string_view name) -> bool {
 
 }  // namespace
 
-auto building_measures(const model::Building& building, double z0, double storey) -> model::Attributes {
+auto solids_of(const model::Building& building) -> std::vector<const LabelledSolid*> {
+  std::vector<const LabelledSolid*> out;
+  for (const auto& solid : building.solids) out.push_back(&solid.model);
+  if (out.empty())
+    for (const auto& part : building.parts)
+      if (!part.model.solid.faces.empty()) out.push_back(&part.model);
+  return out;
+}
+
+auto together(const std::vector<const LabelledSolid*>& solids) -> LabelledSolid {
+  LabelledSolid out;
+  for (const auto* one : solids) {
+    const auto first = static_cast<std::uint32_t>(out.solid.vertices.size());
+    out.solid.vertices.insert(out.solid.vertices.end(), one->solid.vertices.begin(), one->solid.vertices.end());
+    for (model::Face face : one->solid.faces) {
+      for (auto& loop : face.loops)
+        for (auto& v : loop) v += first;
+      out.solid.faces.push_back(std::move(face));
+    }
+    out.classes.insert(out.classes.end(), one->classes.begin(), one->classes.end());
+  }
+  return out;
+}
+
+auto building_measures(const model::Building& building, double z0, double storey, std::optional<double> ground_mean)
+    -> model::Attributes {
   model::Attributes out;
   if (!building.footprint.empty()) out.emplace_back("ms_area_footprint", footprint_area(building));
   const auto solids = solids_of(building);
@@ -197,7 +213,8 @@ auto building_measures(const model::Building& building, double z0, double storey
   out.emplace_back("ms_area_wall", areas.wall);
   out.emplace_back("ms_area_party_wall", areas.party_wall);
   // What is above the eaves of a sloped roof counts to where 70 % of it is.
-  const auto storeys = std::max(std::int64_t{1}, static_cast<std::int64_t>(std::floor((h70 - bottom) / storey + 0.5)));
+  const auto storeys = std::max(
+      std::int64_t{1}, static_cast<std::int64_t>(std::floor((h70 - ground_mean.value_or(bottom)) / storey + 0.5)));
   out.emplace_back("ms_storeys", storeys);
   if (!has(building.attributes, "measuredHeight")) out.emplace_back("measuredHeight", rounded_measure(top - bottom));
   if (!has(building.attributes, "roofType")) out.emplace_back("roofType", roof_code(all, type, lines.ridges));

@@ -12,13 +12,34 @@
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/model/city.hpp"
 #include "mansard/rays/rays.hpp"
+#include "mansard/solid/half_edges.hpp"
 
 namespace mansard::report {
+
+/// What is measured of a building: its solids, or the models of its parts where it has none.
+[[nodiscard]] auto solids_of(const model::Building& building) -> std::vector<const model::LabelledSolid*>;
+
+/// Several solids side by side, for questions that concern their faces.
+[[nodiscard]] auto together(const std::vector<const model::LabelledSolid*>& solids) -> model::LabelledSolid;
+
+/// A line of the eaves.
+struct Eave {
+  std::size_t solid = 0;
+  solid::Line line;
+  double z = 0, length = 0;  ///< m; units of the files
+};
+/// The eaves and the edges of flat roofs, rising.
+[[nodiscard]] auto eaves_of(const std::vector<const model::LabelledSolid*>& solids) -> std::vector<Eave>;
+/// The one at the height below which that share of their length lies; there is one.
+[[nodiscard]] auto eave_at(const std::vector<Eave>& eaves, double share) -> const Eave&;
 
 /// Of its solids, or of its parts where it has none: heights in those of the file, whose origin is at `z0` (m); areas,
 /// counts, storeys of `storey` metres, CityGML's measuredHeight, roofType and storeysAboveGround. Attributes of these
 /// three names that the source has stay as they are. Nothing of a building without a model.
-[[nodiscard]] auto building_measures(const model::Building& building, double z0, double storey) -> model::Attributes;
+/// Storeys are above `ground_mean` (z of the frame, m), the mean of the terrain at the walls, where that is known, else
+/// above the base.
+[[nodiscard]] auto building_measures(const model::Building& building, double z0, double storey,
+                                     std::optional<double> ground_mean = {}) -> model::Attributes;
 
 /// The attributes of a level of detail, in the order of the levels.
 struct LevelNames {

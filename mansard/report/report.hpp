@@ -90,6 +90,7 @@ struct BuildingReport {
   std::vector<base::Diagnostic> reasons;
   std::size_t parts = 0;
   double ground = 0, roof_min = 0, roof_max = 0;  ///< z, metres, file frame
+  std::optional<double> ground_mean, ground_max;  ///< z along its walls, where terrain or scan shows them
   std::string ground_source;                      ///< what says that ground: block::GroundSource; empty without a block
   double volume = 0;                              ///< m³
   label::Areas areas;

@@ -141,28 +141,6 @@ auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<Po
   return out;
 }
 
-auto terrain_along(const model::HeightGrid& terrain, const std::vector<Polygon>& shape, Point3 origin,
-                   const Options& options) -> std::optional<double> {
-  std::vector<Sample> samples;
-  double all = 0;
-  const auto walk = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point2 side = ring[(i + 1) % ring.size()] - ring[i];
-      const double pieces = std::ceil(length(side) / options.terrain_step), weight = length(side) / pieces;
-      for (double k = 0; k < pieces; ++k) {
-        const Point2 at = ring[i] + ((k + 0.5) / pieces) * side;
-        all += weight;
-        if (const auto z = terrain.at(at + xy(origin))) samples.push_back({at, *z - origin.z, weight});
-      }
-    }
-  };
-  for (const auto& polygon : shape) {
-    walk(polygon.outer);
-    for (const auto& hole : polygon.holes) walk(hole);
-  }
-  return percentile(std::move(samples), 0.5, options.terrain_share * all);
-}
-
 auto surface_samples(const geometry::Mesh& mesh) -> std::vector<Sample> {
   std::vector<Sample> out;
   out.reserve(mesh.triangles.size());

@@ -27,12 +27,6 @@ struct Sample {
 [[nodiscard]] auto ground_samples(const geometry::Mesh& mesh, const std::vector<std::vector<geometry::Polygon>>& shapes,
                                   std::size_t count, const Options& options) -> std::vector<std::vector<Sample>>;
 
-/// The median of a terrain's heights along the outlines, holes too, terrain_step apart at most, weighted by length.
-/// Nothing where the terrain is known along less than terrain_share of them. `origin`: of the shape's frame, in the
-/// terrain's; the height is in the shape's frame.
-[[nodiscard]] auto terrain_along(const model::HeightGrid& terrain, const std::vector<geometry::Polygon>& shape,
-                                 geometry::Point3 origin, const Options& options) -> std::optional<double>;
-
 /// One sample per triangle of the whole mesh, at its lowest corner and by its area in space: walls count too.
 [[nodiscard]] auto surface_samples(const geometry::Mesh& mesh) -> std::vector<Sample>;
 

@@ -128,7 +128,8 @@ void add_attributes(model::Building& building, const report::BuildingReport& rep
                     const Options& options, double z0) {
   auto& attributes = building.attributes;
   const std::string outcome(to_string(report.outcome));
-  auto own = report::building_measures(building, z0, options.roof.level_height);
+  auto own = report::building_measures(building, z0, options.roof.level_height,
+                                       report.ground_mean ? std::optional(*report.ground_mean - z0) : std::nullopt);
   attributes.emplace_back("ms_outcome", outcome);
   attributes.emplace_back("ms_success", report.parts > 0);
   report::add_quality(outcome, report::failed_checks(outcome, measures, report.ground_source), report.confidence,
@@ -140,6 +141,8 @@ void add_attributes(model::Building& building, const report::BuildingReport& rep
   attributes.insert(attributes.end(), measures.begin(), measures.end());
   if (report.parts == 0) return report::round_measures(attributes);
   attributes.emplace_back("ms_h_ground", report.ground);
+  if (report.ground_mean) attributes.emplace_back("ms_h_ground_mean", *report.ground_mean);
+  if (report.ground_max) attributes.emplace_back("ms_h_ground_max", *report.ground_max);
   attributes.emplace_back("ms_ground_source", report.ground_source);
   attributes.emplace_back("ms_h_roof_max", report.roof_max);
   attributes.emplace_back("ms_volume_lod22", report.volume);
@@ -224,12 +227,13 @@ auto finish_block(const model::Scene& scene, BlockResult& result, const Options&
                   std::vector<base::Diagnostic>& warnings) -> std::vector<std::pair<std::size_t, Finished>> {
   const auto z0 = static_cast<double>(scene.frame.origin[2]);
   std::vector<std::pair<std::size_t, Finished>> out;
-  for (const auto& [feature, ground, source] : result.grounds) {
+  for (const auto& [feature, ground, source, at_walls] : result.grounds) {
     auto& [building, report] = out.emplace_back(feature, begun(scene, feature)).second;
     report.block = result.report.name;
     report.ground = z0 + ground;
     building.ground = ground;
     report.ground_source = block::to_string(source);
+    if (at_walls) report.ground_mean = z0 + at_walls->mean, report.ground_max = z0 + at_walls->highest;
   }
   std::vector<Account> accounts(out.size());
   const auto place_of = [&](std::size_t feature) {

@@ -9,9 +9,11 @@
 #include "mansard/pipeline/detail/uncovered.hpp"
 #include "mansard/report/attributes.hpp"
 #include "mansard/report/measures.hpp"
+#include "mansard/report/standard_errors.hpp"
 #include "mansard/solid/solid.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "mansard/extrude/align.hpp"
@@ -282,8 +284,8 @@ struct Measured {
 };
 /// `known`: the mesh where it shows what is built.
 auto measured(const block::Block& block, const rays::Scene& mesh, const rays::Scene& known,
-              const std::vector<PartResult>& parts, const std::vector<std::pair<std::size_t, SolidsOf>>& solids,
-              const Options& options) -> Measured {
+              const model::Accuracy& accuracy, const std::vector<PartResult>& parts,
+              const std::vector<std::pair<std::size_t, SolidsOf>>& solids, const Options& options) -> Measured {
   Measured out;
   out.attributes.resize(block.members.size());
   std::vector<std::optional<base::Diagnostic>> doubts(block.members.size());
@@ -302,6 +304,10 @@ auto measured(const block::Block& block, const rays::Scene& mesh, const rays::Sc
     feature = member.feature;
     if (!building.solids.empty())
       attributes = report::level_measures(building, {}, options.write.levels, &mesh, options.evaluate);
+    if (!building.solids.empty()) {
+      const auto ground = member.at_walls ? std::optional(member.at_walls->error) : std::nullopt;
+      std::ranges::move(report::standard_errors(building, {known, accuracy, ground}), std::back_inserter(attributes));
+    }
     PartResult::EavesSeen eaves;
     for (const auto& part : parts)
       if (part.feature == member.feature) {
@@ -369,8 +375,8 @@ auto run_block(const block::Block& block, const Options& asked, const base::Run&
   if (options.profile.overhangs != profile::Overhangs::off)
     out.solids = stage("overhangs", tell, report,
                        [&] { return with_overhangs(shown.block().mesh, options, run, parts, std::move(out.solids)); });
-  auto found =
-      stage("measure", tell, report, [&] { return measured(block, mesh, shown.mesh(), parts, out.solids, options); });
+  auto found = stage("measure", tell, report,
+                     [&] { return measured(block, mesh, shown.mesh(), report.accuracy, parts, out.solids, options); });
   out.evidence =
       stage("confidence", tell, report, [&] { return evidence_for(block, shown, report.accuracy, out.solids); });
   out.measures = std::move(found.attributes);

@@ -54,6 +54,7 @@ struct BlockResult {
     std::size_t feature = 0;
     double z = 0;
     block::GroundSource source = block::GroundSource::unknown;
+    std::optional<block::AtWalls> at_walls{};
   };
   std::vector<Ground> grounds;                           ///< of every feature, ascending; set when placed
   std::vector<PartResult> parts;                         ///< by feature

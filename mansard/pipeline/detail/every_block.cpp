@@ -115,7 +115,7 @@ auto Maker::made(const block::Block& block, const base::Run& run, const Tell& te
     result = refused(block, options_.block);
   }
   for (const auto& member : block.members)
-    result.grounds.push_back({member.feature, member.ground, member.ground_source});
+    result.grounds.push_back({member.feature, member.ground, member.ground_source, member.at_walls});
   return result;
 }
 
