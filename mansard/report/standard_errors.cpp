@@ -283,7 +283,9 @@ auto standard_errors(const model::Building& building, const Evidence& evidence) 
   if (solids.empty()) return out;
   const auto& scan = evidence.accuracy;
   Errors errors;
-  errors.wall = scan.offset_spread * scan.offset_spread + scan.offset_error * scan.offset_error;
+  // A block of one house may have too few walls to tell footprints from scan: then as the end of its roof is seen.
+  errors.wall = scan.edges > 0 ? scan.offset_spread * scan.offset_spread + scan.offset_error * scan.offset_error
+                               : scan.edge_noise * scan.edge_noise;
   Variance volume = 0.0;
   double area_ground = 0;
   Variance wall = 0.0, party = 0.0;
