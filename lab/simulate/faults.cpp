@@ -22,26 +22,26 @@ using geometry::Polygon;
 struct Range {
   double least, most;
 };
-struct Drawn {
+struct FaultRange {
   std::string_view name;
   Range amount;
   bool of_clouds = false;
 };
 /// From what is hardly seen to what spoils a roof, each kind: a survey has all of it.
-constexpr std::array<Drawn, fault_kinds> kinds{{{"unseen", {0.2, 0.75}},
-                                                {"sparse", {0.15, 0.8}, true},
-                                                {"classes", {0.3, 1.0}, true},
-                                                {"crown", {0.1, 0.45}},
-                                                {"scaffold", {0.8, 1.6}},
-                                                {"crane", {3, 12}},
-                                                {"pits", {0.05, 0.4}},
-                                                {"demolished", {0, 0}},
-                                                {"lower", {2.5, 3.5}},
-                                                {"deck", {1.5, 4}},
-                                                {"moved", {0.8, 3}},
-                                                {"turned", {0.1, 0.5}},
-                                                {"larger", {1.15, 1.6}},
-                                                {"smaller", {0.55, 0.9}}}};
+constexpr std::array<FaultRange, fault_kinds> fault_ranges{{{"unseen", {0.2, 0.75}},
+                                                            {"sparse", {0.15, 0.8}, true},
+                                                            {"classes", {0.3, 1.0}, true},
+                                                            {"crown", {0.1, 0.45}},
+                                                            {"scaffold", {0.8, 1.6}},
+                                                            {"crane", {3, 12}},
+                                                            {"pits", {0.05, 0.4}},
+                                                            {"demolished", {0, 0}},
+                                                            {"lower", {2.5, 3.5}},
+                                                            {"deck", {1.5, 4}},
+                                                            {"moved", {0.8, 3}},
+                                                            {"turned", {0.1, 0.5}},
+                                                            {"larger", {1.15, 1.6}},
+                                                            {"smaller", {0.55, 0.9}}}};
 
 auto direction_of(const Fault& fault) -> Point2 {
   return {geometry::cosine(fault.direction), geometry::sine(fault.direction)};
@@ -260,7 +260,7 @@ auto random_for(const Fault& fault, std::uint64_t seed) -> base::Random {
 }
 
 /// Where a corner of the footprint is drawn.
-auto drawn(Point2 p, const Fault& fault, Point2 middle) -> Point2 {
+auto drawn_with(Point2 p, const Fault& fault, Point2 middle) -> Point2 {
   const auto along = direction_of(fault), by = p - middle;
   switch (fault.kind) {
     case FaultKind::moved: return p + fault.amount * along;
@@ -281,13 +281,13 @@ auto is_of_survey(FaultKind kind) -> bool {
 
 }  // namespace
 
-auto to_string(FaultKind kind) -> std::string_view { return kinds[static_cast<std::size_t>(kind)].name; }
+auto to_string(FaultKind kind) -> std::string_view { return fault_ranges[static_cast<std::size_t>(kind)].name; }
 
 auto faults_of(const Truth& truth, double share, bool points, bool heights, std::uint64_t seed) -> std::vector<Fault> {
   constexpr double least_area = 20;  // m²
   std::vector<std::size_t> possible;
-  for (std::size_t k = 0; k < kinds.size(); ++k)
-    if ((points || !kinds[k].of_clouds) && (heights || static_cast<FaultKind>(k) != FaultKind::lower))
+  for (std::size_t k = 0; k < fault_ranges.size(); ++k)
+    if ((points || !fault_ranges[k].of_clouds) && (heights || static_cast<FaultKind>(k) != FaultKind::lower))
       possible.push_back(k);
   std::vector<Fault> out;
   for (std::uint32_t b = 0; b < truth.city.buildings.size(); ++b) {
@@ -297,7 +297,7 @@ auto faults_of(const Truth& truth, double share, bool points, bool heights, std:
     if (!has_one || Place(truth.city.buildings[b]).area < least_area) continue;
     const auto kind = possible[random.index(possible.size())];
     fault.kind = static_cast<FaultKind>(kind);
-    fault.amount = random.uniform(kinds[kind].amount.least, kinds[kind].amount.most);
+    fault.amount = random.uniform(fault_ranges[kind].amount.least, fault_ranges[kind].amount.most);
     fault.direction = random.uniform(0, 2 * std::numbers::pi);
     out.push_back(fault);
   }
@@ -317,7 +317,7 @@ void plant(const std::vector<Fault>& faults, const Truth& truth, std::uint64_t s
   constexpr std::uint8_t other_building = 67;  // free for producers; of some, a building
   constexpr double around = 0.5;               // m; the points of its walls, too
   for (const auto& fault : faults) {
-    if (!kinds[static_cast<std::size_t>(fault.kind)].of_clouds) continue;
+    if (!fault_ranges[static_cast<std::size_t>(fault.kind)].of_clouds) continue;
     const Place place(truth.city.buildings[fault.building]);
     const auto box = geometry::bounds(place.outline).grown(around);
     auto random = random_for(fault, seed);
@@ -344,9 +344,9 @@ void plant(const std::vector<Fault>& faults, const Truth& truth, std::vector<mod
     const auto box = geometry::bounds(footprint.polygons);
     const auto middle = 0.5 * (box.least + box.most);
     for (auto& polygon : footprint.polygons) {
-      for (auto& p : polygon.outer) p = drawn(p, *own, middle);
+      for (auto& p : polygon.outer) p = drawn_with(p, *own, middle);
       for (auto& hole : polygon.holes)
-        for (auto& p : hole) p = drawn(p, *own, middle);
+        for (auto& p : hole) p = drawn_with(p, *own, middle);
     }
   }
 }

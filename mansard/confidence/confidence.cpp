@@ -77,9 +77,12 @@ auto reasons() -> const std::vector<Reason>& {
       {"confidence-form",
        {planes, small_planes, steep, steps, spread, relief, walls, area},
        [](const Evidence& e) {
-         return "its form is seldom right: " + base::to_text(e[planes], 0) + " roof faces, " +
-                percent(e[small_planes]) + " of the roof in faces of less than 4 m², " + percent(e[steep]) +
-                " steeper than 60°, heights that differ by " + metres(e[spread]);
+         constexpr double notable = 0.05;  // of the roof
+         std::string words = "roofs of this form are less often right: " + base::to_text(e[planes], 0) +
+                             (e[planes] == 1 ? " face" : " faces") + ", heights that differ by " + metres(e[spread]);
+         if (e[small_planes] > notable) words += ", " + percent(e[small_planes]) + " of it in faces of less than 4 m²";
+         if (e[steep] > notable) words += ", " + percent(e[steep]) + " of it steeper than 60°";
+         return words;
        }},
       {"confidence-height",
        {height_off},

@@ -20,7 +20,8 @@ constexpr double strip = 3.0;     // m; from the overhang outward: where the ter
 constexpr double bin_size = 0.5;  // m; two samples of a coarse laser scan, and less than a car or a hedge is wide
 constexpr double apart = 3.0;     // m along a wall: farther than the noise of scans is correlated (docs/accuracy.md)
 constexpr double kerb = 0.15;     // m; streets and yards are even to less, gardens and trees are not
-constexpr double object = 0.25;   // of the outline: a longer row of objects is more likely a terrace
+constexpr double embankment = 0.5;
+constexpr double object = 0.25;  // of the outline: a longer row of objects is more likely a terrace
 
 /// A height beside a wall, at a distance from it, m, that represents so many m².
 struct Height {
@@ -376,7 +377,10 @@ auto found_in(const Stations& all) -> std::optional<TerrainFound> {
     const auto& d = departures[i];
     const double own = mean.share * d.mean - rise.share * d.rise * d.away;
     for (const Point2 p : {s.from, s.to}) {
-      const double z = trend.at(p, 0) + own;
+      // No farther off what is seen next to it than a steep embankment (1 : 2) falls on the way to the wall.
+      const auto& beside = s.heights.front();
+      const double most = embankment * (beside.away + s.length());
+      const double z = std::clamp(trend.at(p, 0) + own, beside.z - most, beside.z + most);
       if (z < out.lowest) out.lowest = z, lowest = p, away = d.away, nearest = s.heights.front().away;
       out.walls.highest = std::max(out.walls.highest, z);
       sum += s.length() * z / 2;
