@@ -151,6 +151,8 @@ class Grounds {
     double z = 0;
     GroundSource source = GroundSource::unknown;
     std::optional<AtWalls> at_walls{};
+    std::optional<double> around{};  ///< z of the ground somewhat farther off, where that is another
+    [[nodiscard]] auto of_block() const -> double { return around.value_or(z); }
   };
   [[nodiscard]] auto of(std::size_t member) -> Found {
     const auto& footprint = scene_.feature(block_.members[member].feature);
@@ -159,12 +161,12 @@ class Grounds {
     if (footprint.ground) return {here(*footprint.ground), GroundSource::attribute};
     if (scene_.terrain)
       if (const auto found = detail::terrain_at_walls(around_.shapes[member], *scene_.terrain, origin_, options_))
-        return {found->lowest, GroundSource::terrain, found->walls};
+        return {found->lowest, GroundSource::terrain, found->walls, found->walls.mean};
     const double share = options_.ground_percentile / 100;
     if (!samples_.empty())
       if (const auto z = detail::percentile(samples_[member], share, options_.ground_area)) {
         if (const auto found = detail::terrain_at_walls(around_.shapes[member], samples_[member], options_))
-          return {found->lowest, GroundSource::scan, found->walls};
+          return {found->lowest, GroundSource::scan, found->walls, *z};
         return {*z, GroundSource::scan};
       }
     if (const auto z = of_neighbours()) return {*z, GroundSource::neighbours};
@@ -231,7 +233,9 @@ void set_ground(Block& block, const model::Scene& scene, const Surroundings& aro
     if (found.source == GroundSource::unknown) block.ground_known = false;
     else member.ground = model::rounded(found.z, ground_unit);
     member.at_walls = found.at_walls;
-    heights.push_back(member.ground);
+    // Sections are cut from the ground of the block upward: not from that at the walls of one house.
+    heights.push_back(found.source == GroundSource::unknown ? member.ground
+                                                            : model::rounded(found.of_block(), ground_unit));
   }
   block.ground = heights.empty() ? 0 : base::mean_median(std::move(heights));
 }

@@ -90,9 +90,6 @@ auto reasons() -> const std::vector<Reason>& {
          return "the footprint's own height or storeys are " + metres(std::abs(e[height_off])) +
                 (e[height_off] > 0 ? " less" : " more") + " than the model's: one of the two may be of another year";
        }},
-      {"confidence-simple",
-       {fallback},
-       [](const Evidence&) { return std::string("some of its parts are simpler than the scan"); }},
   };
   return all;
 }
@@ -146,7 +143,6 @@ auto codes() -> std::vector<base::Code> {
       {"confidence-samples", "The scan has few points over a building.", look, 0},
       {"confidence-form", "A building has a form that is seldom right.", look, 0},
       {"confidence-height", "A footprint's own height or number of storeys is another than the model's.", look, 0},
-      {"confidence-simple", "Parts of a building are simpler than the scan.", look, 0},
   };
 }
 

@@ -458,10 +458,12 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   const geometry::Box3 mesh_box =
       cells == nullptr ? detail::bounds(meshes->mesh, options.mesh_offset) : moved(cells->box(), options.mesh_offset);
   if (mesh_box.empty())
-    return base::error("ingest-mesh-unusable",
-                       "none of the " + std::to_string(meshes->mesh.triangles.size()) +
-                           " triangles has finite corners that exist; export the mesh again",
-                       mesh_name);
+    return base::error(
+        "ingest-mesh-unusable",
+        "none of the " + std::to_string(meshes->mesh.triangles.size()) +
+            " triangles has corners that exist and are finite and near enough to zero; export the mesh again. "
+            "Coordinates in millimetres must be multiplied by 0.001",
+        mesh_name);
   if (auto met = check_overlap(*ground, mesh_box, options, subject); !met) return met.error();
   model::Scene scene;
   scene.frame.crs = ground->way.name;

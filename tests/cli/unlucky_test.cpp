@@ -51,7 +51,7 @@ class Unlucky : public Command {
 TEST_F(Unlucky, ids_like_those_of_parts_stay_and_the_parts_get_others) {
   const auto outcome = reconstruct(at("house.obj"), halves(R"({"id":"12"})", R"({"id":"12-1"})"),
                                    "--write-solids part "
-                                   "--formats cityjson,gpkg,citygml");
+                                   "--formats cityjson,geopackage,citygml");
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   const auto all = objects("out/model.city.json");
   ASSERT_TRUE(all.contains("12") && all.contains("12-1"));
@@ -67,7 +67,7 @@ TEST_F(Unlucky, ids_that_formats_cannot_hold_are_changed_and_told) {
                                           "e\"}",
                                           "{\"id\":\"Stra\xe4"
                                           "e\"}"),
-                                   "--formats cityjson,gpkg");
+                                   "--formats cityjson,geopackage");
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   const auto told = run("reconstruct " + at("house.obj") + " " + at("halves.geojson") + " -o " + at("told"));
   EXPECT_THAT(told.err, HasSubstr("warning[ingest-id-characters]"));
@@ -90,7 +90,7 @@ TEST_F(Unlucky, more_attributes_than_columns_are_kept) {
   std::string properties = R"({"id":"a")";
   for (int i = 0; i < 2500; ++i) properties += ",\"n" + std::to_string(i) + "\":" + std::to_string(i);
   const auto outcome = run("reconstruct " + at("house.obj") + " " + halves(properties + "}", R"({"id":"b"})") + " -o " +
-                           at("out") + " --formats cityjson,gpkg,fgb");
+                           at("out") + " --formats cityjson,geopackage,flatgeobuf");
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("warning[write-columns]"));
   EXPECT_EQ(objects("out/model.city.json")["a"]["attributes"]["n2499"], 2499);
@@ -149,7 +149,7 @@ TEST_F(Unlucky, names_of_no_crs_are_errors_that_say_what_to_give) {
   put("link.geojson", R"({"type":"FeatureCollection","crs":{"type":"link","properties":{"href":"http://127.0.0.1:9/c",)"
                       R"("type":"proj4"}},"features":[)" +
                           feature(R"({"id":"a"})") + "]}");
-  expect_refusal(reconstruct(at("house.obj"), at("link.geojson")), 3, "ingest-crs-unknown", "no link is followed");
+  expect_refusal(reconstruct(at("house.obj"), at("link.geojson")), 3, "ingest-outside", "MANSARD_OUTSIDE=yes");
 }
 
 TEST_F(Unlucky, a_cloud_whose_header_has_no_box_is_local_like_a_mesh) {
@@ -231,7 +231,6 @@ TEST_F(Unlucky, remedies_for_what_does_not_overlap_work) {
     double factor;
     const char* words;
   } units[] = {{1 / 0.3048, "multiply its coordinates by 0.3048"},
-               {1000, "multiply its coordinates by 0.001"},
                {100, "multiply its coordinates by 0.01"},
                {0.001, "multiply its coordinates by 1000"}};
   for (const auto& [factor, remedy] : units) {
@@ -242,6 +241,10 @@ TEST_F(Unlucky, remedies_for_what_does_not_overlap_work) {
     EXPECT_THAT(words, HasSubstr(remedy));
   }
   works(reconstruct(there, at("far.geojson")));  // which is the mesh with its coordinates multiplied
+  // In millimetres, coordinates of a country are farther from zero than those of any country.
+  moved_house("unit.obj",
+              [](double& x, double& y, double& z) { x = (x + 84800) * 1e3, y = (y + 447400) * 1e3, z *= 1e3; });
+  expect_refusal(reconstruct(at("unit.obj"), at("far.geojson")), 3, "ingest-mesh-unusable", "multiplied by 0.001");
 
   words =
       told(moved_house("swapped.obj", [](double& x, double& y, double&) { x += 84800, y += 447400, std::swap(x, y); }),

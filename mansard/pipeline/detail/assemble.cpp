@@ -186,7 +186,8 @@ auto above_stated(const model::Building& building, const report::BuildingReport&
   return 0;
 }
 
-/// What speaks most against a model before what else there is to say of it. What the scan does not cover is said once.
+/// What speaks most against a model before what else there is to say of it, but for why it is simpler than others. What
+/// the scan does not cover is said once.
 void put_first(std::vector<base::Diagnostic> doubts, report::BuildingReport& report) {
   if (report.outcome == report::Outcome::refused || report.outcome == report::Outcome::covered) return;
   const auto partly = std::ranges::find(report.reasons, "pipeline-partly-seen", &base::Diagnostic::code);
@@ -196,8 +197,9 @@ void put_first(std::vector<base::Diagnostic> doubts, report::BuildingReport& rep
     report.reasons.erase(partly);
   }
   for (auto& doubt : doubts) doubt.subject = report.id;
-  report.reasons.insert(report.reasons.begin(), std::make_move_iterator(doubts.begin()),
-                        std::make_move_iterator(doubts.end()));
+  const bool simpler = report.outcome == report::Outcome::fallback;
+  report.reasons.insert(simpler ? report.reasons.end() : report.reasons.begin(),
+                        std::make_move_iterator(doubts.begin()), std::make_move_iterator(doubts.end()));
 }
 
 /// A feature before anything is made of it.
