@@ -154,7 +154,7 @@ class Grounds {
     std::optional<double> around{};  ///< z of the ground somewhat farther off, where that is another
     [[nodiscard]] auto of_block() const -> double { return around.value_or(z); }
   };
-  static constexpr double same_ground = 0.5;  // m; unevenness of gardens and pavements beside a house
+  static constexpr double same_ground = 0.4;  // m; unevenness of gardens and pavements beside a house
   [[nodiscard]] auto of(std::size_t member) -> Found {
     const auto& footprint = scene_.feature(block_.members[member].feature);
     // Heights of files are above sea level, those here above the frames of scene and block.
