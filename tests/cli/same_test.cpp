@@ -77,7 +77,7 @@ class SameBuilding : public Command, public testing::WithParamInterface<Place> {
       const std::string building = object.contains("parents") ? object["parents"][0].get<std::string>() : id;
       Json attributes = object["attributes"];
       for (auto& [name, value] : attributes.items())
-        if (name.starts_with("ms_h_") && value.is_number())
+        if (name.starts_with("ms_h_") && !name.ends_with("_se") && value.is_number())
           value = std::floor((value.get<double>() - shift[2]) * 1e4 + 0.5);
       for (const auto* plan : {"+ms_plan", "+ms_footprint"})
         if (attributes.contains(plan)) attributes[plan] = placed(attributes[plan], shift);
