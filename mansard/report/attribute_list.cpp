@@ -23,9 +23,9 @@ auto attributes() -> std::vector<formats::Attribute> {
       "detail), coverage (the scan covers less than half of the footprint), ground (nothing shows it).");
   add("ms_confidence", building, "number", "",
       "Probability that the model is right, 0 to 1: a mean squared vertical error of 0.5 m² or less, 0.3 m inside the "
-      "outline, against what stands there; only with a scan.");
+      "outline, against what is really there; only with a scan.");
   add("ms_error", building, "number", "m",
-      "Root mean square vertical error to expect against what stands there, 0.3 m inside the outline; only with a "
+      "Root mean square vertical error to expect against what is really there, 0.3 m inside the outline; only with a "
       "scan.");
   add("ms_reasons", building, "string", "",
       "Why the building has no model, a simpler one, or one that is less sure, the main reason first; absent where "
