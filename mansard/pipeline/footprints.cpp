@@ -170,8 +170,8 @@ auto attributes_of(const model::LabelledSolid& model, const Raising& job, const 
 void take(Raising job, model::LabelledSolid model, const model::Footprint& footprint, model::Building& building,
           const report::BuildingReport& report) {
   auto attributes = attributes_of(model, job, report);
-  building.parts.push_back({footprint.part_id(building.parts.size() + 1), std::move(job.planned.plan),
-                            std::move(model), std::move(attributes)});
+  building.parts.push_back({footprint.part_id(building.parts.size() + 1), std::move(job.planned.plan), std::move(model),
+                            std::move(attributes)});
 }
 
 /// The solids of a building, and its report of the parts that have one.
