@@ -58,7 +58,7 @@ const columns: { column: Column; name: string; title: string; number?: boolean }
   { column: "outcome", name: "Outcome", title: "Result of the run: full, or a simpler model" },
   {
     column: "confidence",
-    name: "Right",
+    name: "Sure",
     title: "Probability that the model is right, in percent; the least sure first",
     number: true,
   },
