@@ -35,7 +35,7 @@ SCANS = [
     ("fine", "nadir-drone", 0, ["--simulate-noise", "0.015", "--simulate-melt", "0.1", "--simulate-jitter", "0.1"]),
 ]
 HELD_OUT = [name for name, *_ in SCANS[-4:]]
-# Faults in half of the buildings of a survey, in every third, in none.
+# Share of the buildings of a survey that have a fault.
 FAULTS = [0.35, 0.2, 0.0]
 
 
@@ -177,18 +177,10 @@ def train(out, header):
 
 #include <array>
 
-#include "mansard/confidence/evidence.hpp"
+#include "mansard/confidence/detail/term.hpp"
 
 namespace mansard::confidence::detail {{
 
-struct Term {{
-  Measure measure;
-  Measure second;       ///< by which it is multiplied; `alone` for none
-  double scale;         ///< of their units: they count as ln(1 + |x| / scale)
-  double usual;         ///< mean of that among the models that were right
-  double wrong, error;  ///< weights: logarithm of the odds to be wrong, and of the error in metres
-}};
-inline constexpr auto alone = static_cast<Measure>(measures);
 inline constexpr double wrong_bias = {bias + weights @ usual:.4f}, error_bias = {error_bias + error_weights @ usual:.4f};
 inline constexpr std::array<Term, {len(lines)}> terms{{{{
 {chr(10).join(lines)}

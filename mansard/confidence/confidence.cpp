@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "mansard/base/text.hpp"
+#include "mansard/base/metres.hpp"
 #include "mansard/confidence/detail/coefficients.hpp"
 #include "mansard/geometry/angles.hpp"
 
@@ -19,7 +19,6 @@ struct Reason {
 };
 
 auto percent(double share) -> std::string { return base::to_text(100 * share, 0) + " %"; }
-auto metres(double m) -> std::string { return base::to_text(m, 1) + " m"; }
 
 auto reasons() -> const std::vector<Reason>& {
   using enum Measure;
@@ -33,8 +32,8 @@ auto reasons() -> const std::vector<Reason>& {
       {"confidence-above",
        {above, patch_above, stacked, top, bias},
        [](const Evidence& e) {
-         return "the scan is above the model over " + percent(e[above]) + " of the roof, by up to " + metres(e[top]) +
-                ": a part of the roof that the model lacks, a tree or a crane";
+         return "the scan is above the model over " + percent(e[above]) + " of the roof, by up to " +
+                base::metres(e[top]) + ": a part of the roof that the model lacks, a tree or a crane";
        }},
       {"confidence-below",
        {below, patch_below, sunk},
@@ -66,7 +65,7 @@ auto reasons() -> const std::vector<Reason>& {
          return e[low] > 0.5
                     ? "the scan is at the ground over " + percent(e[low]) +
                           " of the footprint: the building may be gone, or newer than the scan"
-                    : "its height above the ground, " + metres(e[height]) + ", is less sure than that of others";
+                    : "its height above the ground, " + base::metres(e[height]) + ", is less sure than that of others";
        }},
       {"confidence-samples",
        {samples},
@@ -79,7 +78,8 @@ auto reasons() -> const std::vector<Reason>& {
        [](const Evidence& e) {
          constexpr double notable = 0.05;  // of the roof
          std::string words = "roofs of this form are less often right: " + base::to_text(e[planes], 0) +
-                             (e[planes] == 1 ? " face" : " faces") + ", heights that differ by " + metres(e[spread]);
+                             (e[planes] == 1 ? " face" : " faces") + ", heights that differ by " +
+                             base::metres(e[spread]);
          if (e[small_planes] > notable) words += ", " + percent(e[small_planes]) + " of it in faces of less than 4 m²";
          if (e[steep] > notable) words += ", " + percent(e[steep]) + " of it steeper than 60°";
          return words;
@@ -87,7 +87,7 @@ auto reasons() -> const std::vector<Reason>& {
       {"confidence-height",
        {height_off},
        [](const Evidence& e) {
-         return "the footprint's own height or storeys are " + metres(std::abs(e[height_off])) +
+         return "the footprint's own height or storeys are " + base::metres(std::abs(e[height_off])) +
                 (e[height_off] > 0 ? " less" : " more") + " than the model's: one of the two may be of another year";
        }},
   };

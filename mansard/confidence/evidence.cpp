@@ -289,11 +289,24 @@ void measure_roof(const Site& site, const Grid& grid, Evidence& out) {
 void measure_outline(const Site& site, const Grid& grid, Evidence& out) {
   using enum Measure;
   const double half = site.ground + 0.5 * out[height];
+  // Of a block of hundreds of houses a few are near.
+  struct Other {
+    const Polygon* polygon;
+    geometry::Box2 reach;
+  };
+  std::vector<Other> others;
+  const auto looked_at = geometry::bounds(site.footprint).grown(around);
+  for (const auto& other : site.others)
+    if (const auto reach = geometry::bounds(other.outer).grown(of_others); reach.overlaps(looked_at))
+      others.push_back({&other, reach});
+  const auto in_others = [&](Point2 p) {
+    return std::ranges::any_of(
+        others, [&](const Other& other) { return other.reach.contains(p) && geometry::contains(*other.polygon, p); });
+  };
   const auto near_others = [&](Point2 p) {
-    return std::ranges::any_of(site.others, [&](const Polygon& other) {
-      return geometry::bounds(other.outer).grown(of_others).contains(p) &&
-             (geometry::contains(other, p) || geometry::boundary_distance(other, p) < of_others);
-    });
+    return in_others(p) || std::ranges::any_of(others, [&](const Other& other) {
+             return other.reach.contains(p) && geometry::boundary_distance(*other.polygon, p) < of_others;
+           });
   };
   Sides outside, within;
   double free_cells = 0, rim_cells = 0;
@@ -309,7 +322,7 @@ void measure_outline(const Site& site, const Grid& grid, Evidence& out) {
       if (cell.seen && cell.built) within.add(way, *cell.seen < site.ground + 0.5 * (*cell.built - site.ground));
     } else if (distance >= rim_from && distance <= around) {
       if (!cell.seen) continue;
-      if (*cell.seen > std::max(half, site.ground + lowest_wall) && !geometry::contains(site.others, cell.at))
+      if (*cell.seen > std::max(half, site.ground + lowest_wall) && !in_others(cell.at))
         out[gap] += grid.step * grid.step;
       if (near_others(cell.at)) continue;
       if (distance < ring_from) continue;

@@ -382,9 +382,8 @@ auto standard_errors(const model::Building& building, const Evidence& evidence) 
   if (highest) highest->variance = sum(highest->variance, rim_of_highest * rim_of_highest);
   if (lowest) lowest->variance = sum(lowest->variance, rim_of_lowest * rim_of_lowest);
   if (lowest) add_height("ms_h_roof_min_se", lowest->variance);
-  const auto percentile = [&](double share) {
-    return of_percentile(errors, solid::roof_percentile(together(solids), share));
-  };
+  const auto all = together(solids);
+  const auto percentile = [&](double share) { return of_percentile(errors, solid::roof_percentile(all, share)); };
   add_height("ms_h_roof_50p_se", percentile(0.5));
   add_height("ms_h_roof_70p_se", percentile(0.7));
   if (highest) add_height("ms_h_roof_max_se", highest->variance);

@@ -4,18 +4,10 @@
 
 #include <array>
 
-#include "mansard/confidence/evidence.hpp"
+#include "mansard/confidence/detail/term.hpp"
 
 namespace mansard::confidence::detail {
 
-struct Term {
-  Measure measure;
-  Measure second;       ///< by which it is multiplied; `alone` for none
-  double scale;         ///< of their units: they count as ln(1 + |x| / scale)
-  double usual;         ///< mean of that among the models that were right
-  double wrong, error;  ///< weights: logarithm of the odds to be wrong, and of the error in metres
-};
-inline constexpr auto alone = static_cast<Measure>(measures);
 inline constexpr double wrong_bias = -3.8473, error_bias = -2.3518;
 inline constexpr std::array<Term, 30> terms{{
     {Measure::area, alone, 50, 1.1816, 0.6146, 0.2599},

@@ -264,12 +264,16 @@ auto evidence_for(const block::Block& block, const Shown& shown, const model::Ac
   std::vector<std::pair<std::size_t, confidence::Evidence>> out(solids.size());
   base::parallel_for(solids.size(), [&](std::size_t s) {
     const auto& [feature, made] = solids[s];
-    const block::Member* own = nullptr;
-    std::vector<geometry::Polygon> others = block.beside;
-    for (const auto& member : block.members) {
-      if (member.feature == feature) own = &member;
-      else others.insert(others.end(), member.polygons.begin(), member.polygons.end());
-    }
+    const auto own = std::ranges::find(block.members, feature, &block::Member::feature);
+    const auto reach = geometry::bounds(own->polygons).grown(block::beside_reach);
+    std::vector<geometry::Polygon> others;
+    const auto add_near = [&](const std::vector<geometry::Polygon>& polygons) {
+      for (const auto& polygon : polygons)
+        if (reach.overlaps(geometry::bounds(polygon.outer))) others.push_back(polygon);
+    };
+    add_near(block.beside);
+    for (const auto& member : block.members)
+      if (member.feature != feature) add_near(member.polygons);
     std::vector<const model::LabelledSolid*> models;
     for (const auto& one : made.solids) models.push_back(&one.model);
     out[s] = {feature, confidence::evidence_of(
