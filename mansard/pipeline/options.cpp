@@ -414,6 +414,7 @@ auto codes() -> std::vector<base::Code> {
   add(derive::codes());
   add(fracture::codes());
   add(segment::codes());
+  add(refine::codes());
   add(extrude::codes());
   add(solid::codes());
   add(roof::codes());

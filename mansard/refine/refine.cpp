@@ -19,14 +19,16 @@ auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Option
   const detail::Work work(mesh, above, options, raising, run);
   std::vector<detail::Roofed> each(groups.size());
   base::parallel_for(groups.size(), [&](std::size_t g) {
-    if (!run.cancelled()) each[g] = detail::refine_owner(drafts, groups[g], work);
+    if (!run.cancelled()) each[g] = detail::refine_owner(drafts, groups[g], work.for_owner());
   });
   Refined out;
   std::vector<detail::Piece> pieces;
-  for (auto& one : each) {
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    auto& one = each[g];
     std::ranges::move(one.pieces, std::back_inserter(pieces));
     std::ranges::move(one.rest.parts, std::back_inserter(out.parts));
     std::ranges::move(one.rest.failed, std::back_inserter(out.failed));
+    if (one.ended_early) out.ended_early.push_back(drafts[groups[g].front()].owner);
   }
   if (options.effort != Effort::caps) detail::make_alike(pieces, work);
   std::vector<std::vector<detail::Piece>> made(pieces.size());
@@ -38,6 +40,13 @@ auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Option
   std::ranges::stable_sort(out.parts, {}, &Part::draft);
   std::ranges::stable_sort(out.failed, {}, [](const auto& failure) { return failure.first; });
   return out;
+}
+
+auto codes() -> std::vector<base::Code> {
+  return {{"refine-bound",
+           "The search for a building's roofs ended at the bound of its work, which grows with the building; the best "
+           "roofs that it had by then are used.",
+           "Look at the building. Divide its footprint, or give it fewer corners.", 0}};
 }
 
 }  // namespace mansard::refine

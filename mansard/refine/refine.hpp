@@ -38,6 +38,8 @@ struct Part {
 struct Refined {
   std::vector<Part> parts;  ///< by draft; of one draft its own remainder first, then what was cut out of it
   std::vector<std::pair<std::size_t, base::Diagnostic>> failed;  ///< drafts that could not be raised, and why
+  /// Owners whose search met the bound of its work, ascending; their parts are the best that it had by then.
+  std::vector<std::size_t> ended_early = {};
 };
 
 /// Parts joined where one roof suits both, each given the roof that suits the scan best, and cut where two suit better.
@@ -45,9 +47,12 @@ struct Refined {
 /// what its drafts covered, but for gaps under a millimetre that joining closes · 3 the same drafts and mesh give the
 /// same parts at any thread count · 4 a draft over which the mesh shows nothing stays as it is.
 /// `above`: the mesh with the crowns of trees, where `mesh` is without; a roof that they hide is below them.
-/// Cost: some dozens to hundreds of raises a draft.
+/// Cost: some dozens to hundreds of raises a draft. The work of an owner is at most about 80 µs a sample of its parts;
+/// a corner counts as 50 samples (docs/decisions/0132-bounded-work.md).
 [[nodiscard]] auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Options& options,
                           const extrude::Options& raising, const base::Run& run = {},
                           const rays::Scene* above = nullptr) -> Refined;
+
+[[nodiscard]] auto codes() -> std::vector<base::Code>;
 
 }  // namespace mansard::refine

@@ -158,6 +158,29 @@ TEST(Refine, keeps_the_draft_where_nothing_was_seen) {
   EXPECT_EQ(parts[0].plan, draft.plan);
 }
 
+TEST(Refine, ends_at_the_bound_of_its_work_and_says_so) {
+  const std::vector<refine::Draft> halves{flat_draft(rectangle(10, 20, 5, 8), 6, 4),
+                                          flat_draft(rectangle(15, 20, 7, 8), 6, 4)};
+  const auto mesh = scan({gabled()});
+  EXPECT_THAT(refine::refine(halves, mesh, {}, {}).ended_early, testing::IsEmpty());
+  Options bounded;
+  bounded.search.most_work = 1;
+  const auto out = refine::refine(halves, mesh, bounded, {});
+  EXPECT_THAT(out.ended_early, ElementsAre(4));
+  EXPECT_EQ(out.parts.size(), 2U);  // not joined, and both raised
+  EXPECT_TRUE(out.failed.empty());
+}
+
+TEST(Refine, asks_for_a_bounded_number_of_roofs) {
+  auto draft = flat_draft(house(), 6);
+  draft.alternatives.assign(4, {roof(5, 0.3), roof(5, 0.5), roof(5, 0.7)});
+  const auto mesh = scan({plan(house(), {roof(4, 0.3), wall(7), roof(6, 0.9), roof(5, 0.6)}, 8)});
+  EXPECT_THAT(refine::refine(std::span(&draft, 1), mesh, {}, {}).ended_early, testing::IsEmpty());
+  Options bounded;
+  bounded.search.most_roofs = 1;
+  EXPECT_THAT(refine::refine(std::span(&draft, 1), mesh, bounded, {}).ended_early, ElementsAre(0));
+}
+
 TEST(Refine, gives_the_same_at_any_thread_count) {
   std::vector<refine::Draft> drafts;
   std::vector<Plan> truth;

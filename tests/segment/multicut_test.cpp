@@ -171,6 +171,19 @@ TEST(Multicut, stops_with_a_valid_answer_when_the_run_is_cancelled) {
   expect_sound(problem, detail::solve(problem, {}, run));
 }
 
+TEST(Multicut, takes_no_more_nodes_than_its_work_allows) {
+  base::Random random(5);
+  const Multicut problem = random_grid(12, 12, {1000, 2500, 0.9, 0.02}, random);
+  detail::MulticutLimits limits;
+  limits.node_work = 1;
+  const MulticutAnswer free = detail::solve(problem, {}), bounded = detail::solve(problem, limits);
+  expect_sound(problem, bounded);
+  EXPECT_GT(free.rounds, 0) << "else nothing is bounded";
+  EXPECT_EQ(bounded.rounds, 1) << "one solve in any case";
+  EXPECT_EQ(bounded.nodes, 0);
+  EXPECT_GE(bounded.objective, free.objective);
+}
+
 TEST(Multicut, gives_the_same_labels_twice) {
   base::Random random(91);
   for (int round = 0; round < 5; ++round) {

@@ -63,7 +63,7 @@ struct BlockResult {
   std::vector<std::size_t> covered;  ///< features whose ground went to their neighbours
   /// Features of which some ground has no model, because not even a prism can be extruded there, and why.
   std::vector<std::pair<std::size_t, base::Diagnostic>> failed;
-  /// Features whose ground could not be told from that of their neighbours' parts, and why.
+  /// Features of which something is not known or not finished, and why: told as a warning of the run, too.
   std::vector<std::pair<std::size_t, base::Diagnostic>> unchecked;
   /// Features whose model is less sure than others, and why.
   std::vector<std::pair<std::size_t, base::Diagnostic>> doubts;

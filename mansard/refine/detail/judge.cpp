@@ -121,6 +121,7 @@ auto Judge::misfit_of(const View& view, double cap, double most, double paid) co
 }
 
 auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
+  pay_for(plan);
   constexpr double any = std::numeric_limits<double>::infinity();
   if (auto judged = again(plan, any)) return std::move(*judged);
   auto sketch = extrude::sketch(plan, raising_, run_);
@@ -131,6 +132,7 @@ auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
 }
 
 auto Judge::cheaper(const model::Plan& plan, double than) const -> std::optional<Judged> {
+  pay_for(plan);
   const double most = than - options_.same_cost;
   if (known_ && known_->costs_at_least(plan) >= most) return std::nullopt;
   auto judged = again(plan, most);

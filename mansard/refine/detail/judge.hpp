@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mansard/extrude/extrude.hpp"
+#include "mansard/refine/detail/account.hpp"
 #include "mansard/refine/detail/bare.hpp"
 #include "mansard/refine/detail/known.hpp"
 #include "mansard/refine/detail/site.hpp"
@@ -42,10 +43,11 @@ struct Judged {
 
 class Judge {
  public:
-  /// `known`: of this site, these options and no others; what is judged is added. Null: every roof is made.
+  /// `known`: of this site, these options and no others; what is judged is added. Null: every roof is made. `account`:
+  /// pays for every roof that is asked for.
   Judge(const Site& site, const Options& options, const extrude::Options& raising, const base::Run& run,
-        KnownRoofs* known = nullptr)
-      : site_(site), options_(options), raising_(raising), run_(run), known_(known) {}
+        KnownRoofs* known = nullptr, Account* account = nullptr)
+      : site_(site), options_(options), raising_(raising), run_(run), known_(known), account_(account) {}
 
   /// Gives up where the plan cannot be raised in full.
   [[nodiscard]] auto operator()(const model::Plan& plan) const -> base::Result<Judged>;
@@ -58,6 +60,13 @@ class Judge {
   /// already may end there.
   [[nodiscard]] auto misfit_of(const View& view, double cap = std::numeric_limits<double>::infinity(),
                                double most = std::numeric_limits<double>::infinity(), double paid = 0) const -> double;
+
+  /// Whether no more roofs are to be asked for, one after the other. Only where no other thread asks.
+  [[nodiscard]] auto is_tired() const -> bool {
+    const bool tired = asked_.load(std::memory_order_relaxed) >= static_cast<std::uint64_t>(options_.search.most_roofs);
+    if (tired && account_) account_->met_a_bound();
+    return tired;
+  }
 
   [[nodiscard]] auto site() const -> const Site& { return site_; }
   [[nodiscard]] auto options() const -> const Options& { return options_; }
@@ -73,6 +82,10 @@ class Judge {
   [[nodiscard]] auto loss_at(const View& view, std::size_t sample, double cap) const -> double;
   /// m²·m²: a misfit, and that of a roof above the crowns that hide it.
   [[nodiscard]] auto with_ceilings(const View& view, double cap, double misfit) const -> double;
+  void pay_for(const model::Plan& plan) const {
+    asked_.fetch_add(1, std::memory_order_relaxed);
+    if (account_) account_->add(work_of(site_, corners_of(plan)));
+  }
   /// Fills in what the faces and what is unsupported cost, and the sum.
   void price(Judged& judged) const;
 
@@ -81,6 +94,8 @@ class Judge {
   const extrude::Options& raising_;
   const base::Run& run_;
   KnownRoofs* known_;
+  Account* account_;
+  mutable std::atomic<std::uint64_t> asked_{0};
 };
 
 }  // namespace mansard::refine::detail

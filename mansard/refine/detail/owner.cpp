@@ -13,6 +13,15 @@
 namespace mansard::refine::detail {
 namespace {
 
+/// As docs/decisions/0132-bounded-work.md measured it.
+constexpr std::uint64_t samples_of_corner = 50;
+/// Shares of what a search may take after which joining and cutting anew, then cutting, then the rest end. Chosen by
+/// hand, so that a search which ends early has tried something of each.
+constexpr double share_of_joining = 0.5, share_of_cutting = 0.8;
+/// How many times the work of one roof over a piece, or over each of a pair, a step takes: of 4,000 steps nine in ten
+/// take less.
+constexpr std::uint64_t roofs_of_union = 7, roofs_of_recut = 40, roofs_of_split = 90;
+
 /// What is known of two pieces. Pieces never change, so that it stays true.
 struct Pair {
   bool was_united = false, was_joined = false, was_cut = false;
@@ -22,9 +31,16 @@ struct Pair {
 /// The pieces of one owner: joined, cut, and cut again where two meet at the wrong place, as long as that is cheaper.
 class Pieces {
  public:
-  Pieces(std::vector<Piece> pieces, const Work& work) : work_(work) {
-    for (auto& piece : pieces) pieces_.push_back(numbered(std::move(piece)));
+  Pieces(std::vector<Piece> pieces, const Work& work) : work_(work), before_(work.account().spent()) {
+    for (auto& piece : pieces) {
+      most_ += static_cast<std::uint64_t>(work.options().search.most_work) *
+               (samples_of(piece.site) + samples_of_corner * corners_of(piece.roof.plan));
+      pieces_.push_back(numbered(std::move(piece)));
+    }
   }
+
+  /// From now on the search ends where this share of what it may take in all is spent.
+  void allow(double share) { allowed_ = static_cast<std::uint64_t>(share * static_cast<double>(most_)); }
 
   /// Joins two pieces at a time, those that promise most first, until no pair is cheaper as one.
   void join() {
@@ -50,10 +66,12 @@ class Pieces {
   void split() {
     const auto most_pieces = static_cast<std::size_t>(work_.options().joins.max_pieces);
     while (pieces_.size() < most_pieces && !work_.cancelled()) {
+      std::vector<std::size_t> open;
+      for (std::size_t i = 0; i < pieces_.size(); ++i)
+        if (!whole_.contains(pieces_[i].number)) open.push_back(i);
+      keep_affordable(open, [&](std::size_t i) { return roofs_of_split * work_of_one(pieces_[i]); });
       std::vector<std::vector<Piece>> found(pieces_.size());
-      base::parallel_for(pieces_.size(), [&](std::size_t i) {
-        if (!whole_.contains(pieces_[i].number)) found[i] = work_.split(pieces_[i]);
-      });
+      base::parallel_for(open.size(), [&](std::size_t k) { found[open[k]] = work_.split(pieces_[open[k]]); });
       std::vector<Piece> next;
       for (std::size_t i = 0; i < pieces_.size(); ++i) {
         if (found[i].empty()) {
@@ -92,6 +110,8 @@ class Pieces {
     while (!work_.cancelled()) {
       auto fresh = fresh_pairs(was, may);
       if (united == United::all) {
+        std::ranges::stable_sort(fresh, {}, [this](const Fresh& one) { return work_of_union(one); });
+        keep_affordable(fresh, [this](const Fresh& one) { return work_of_union(one); });
         unite(fresh, was);
         std::erase_if(fresh, [](const Fresh& one) { return !one.pair->both; });
       }
@@ -102,6 +122,7 @@ class Pieces {
       rank(
           fresh, [](const Fresh& one) { return -one.promise; }, work_.options().same_cost);
       fresh = first_of(std::move(fresh), was);
+      keep_affordable(fresh, [this](const Fresh& one) { return roofs_of_recut * work_of_both(one); });
       if (fresh.empty()) return;
       std::vector<std::vector<Piece>> found(fresh.size());
       base::parallel_for(fresh.size(), [&](std::size_t k) {
@@ -111,6 +132,34 @@ class Pieces {
       });
       put(fresh, std::move(found));
     }
+  }
+
+  [[nodiscard]] auto left() const -> std::uint64_t {
+    const std::uint64_t spent = work_.account().spent() - before_;
+    return allowed_ > spent ? allowed_ - spent : 0;
+  }
+
+  static auto work_of_one(const Piece& piece) -> std::uint64_t {
+    return work_of(piece.site, corners_of(piece.roof.plan));
+  }
+  [[nodiscard]] auto work_of_both(const Fresh& one) const -> std::uint64_t {
+    return work_of_one(pieces_[one.i]) + work_of_one(pieces_[one.j]);
+  }
+  [[nodiscard]] auto work_of_union(const Fresh& one) const -> std::uint64_t {
+    return one.pair->was_united ? 0 : roofs_of_union * work_of_both(one);
+  }
+
+  /// What is left can be paid for, in the order that it has.
+  template <class Step, class Work>
+  void keep_affordable(std::vector<Step>& steps, Work work) {
+    std::uint64_t rest = left();
+    const auto dear = std::erase_if(steps, [&](const Step& step) {
+      const std::uint64_t needed = work(step);
+      if (needed > rest) return true;
+      rest -= needed;
+      return false;
+    });
+    if (dear > 0) work_.account().met_a_bound();
   }
 
   /// Both pieces of each pair under one roof, if that was not tried; those that cannot be are tried no more.
@@ -182,6 +231,7 @@ class Pieces {
   std::map<std::pair<std::size_t, std::size_t>, Pair> pairs_;
   std::set<std::size_t> whole_;  // pieces that no cut makes cheaper
   std::size_t next_ = 0;
+  std::uint64_t before_ = 0, most_ = 0, allowed_ = 0;
 };
 
 }  // namespace
@@ -211,14 +261,18 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
   }
   if (options.effort == Effort::parts) {
     Pieces search(std::move(pieces), work);
+    search.allow(share_of_joining);
     search.join();
     search.cut_anew();  // a wall between two drafts that is not where the scan has it would be explained by cuts
+    search.allow(share_of_cutting);
     search.split();
     search.cut_anew();
+    search.allow(1);
     search.join();  // what was cut may fit its neighbours now
     pieces = std::move(search).pieces();
   }
   base::parallel_for(pieces.size(), [&](std::size_t i) { pieces[i] = work.finished(std::move(pieces[i])); });
+  out.ended_early = work.account().has_met_a_bound();
   return out;
 }
 

@@ -39,7 +39,7 @@ auto is_sound(const base::Result<extrude::Raised>& raised) -> bool {
 }  // namespace
 
 auto Work::look(const geometry::Polygon& polygon, double base) const -> Site {
-  return without_remnants(with_ceilings(detail::look(polygon, base, mesh_, options_, points_ ? &*points_ : nullptr)));
+  return without_remnants(with_ceilings(detail::look(polygon, base, mesh_, options_, points_.get())));
 }
 
 /// Nothing is seen of what crowns hide but for the ground beside it.
@@ -58,7 +58,7 @@ auto Work::with_ceilings(Site site) const -> Site {
 }
 
 auto Work::both_of(const Piece& a, const Piece& b, const geometry::Polygon& both) const -> Site {
-  return with_ceilings(merged(a.site, b.site, both, mesh_, options_, points_ ? &*points_ : nullptr));
+  return with_ceilings(merged(a.site, b.site, both, mesh_, options_, points_.get()));
 }
 
 /// `worth`: dearer roofs are of no interest.
@@ -66,7 +66,7 @@ auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search
                   std::shared_ptr<KnownRoofs> known) const -> base::Result<Piece> {
   std::vector<std::string> changes;
   if (!known) known = std::make_shared<KnownRoofs>();
-  auto roof = best_roof(draft, Judge(site, options_, raising_, run_, known.get()), search, worth, changes);
+  auto roof = best_roof(draft, judge_of(site, known.get()), search, worth, changes);
   if (!roof) return roof.error();
   Piece piece{draft_index, std::move(site), std::move(draft), std::move(*roof), std::nullopt, std::move(changes)};
   if (search != Search::thorough) {
@@ -122,6 +122,7 @@ auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> 
 
 /// Of the proposed cuts the one whose pieces cost least, if that is less than they are worth.
 auto Work::cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece> {
+  account_->add(work_of_cut * piece.site.cells.size());
   Heights model = piece.site.measured, measured = piece.site.measured;
   model.z = piece.roof.view.z;
   // Where the roof is above the crown that hides it, that is known.
@@ -317,7 +318,7 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
     if (dormers.empty()) return;
     const Site without = detail::without_dormers(all, dormers, options_.samples.melt, options_);
     if (without.cells.empty()) return;
-    const Judge judge(without, options_, raising_, run_);
+    const Judge judge = judge_of(without);
     consider(judge(refitted(seen_over(roof, without), without, options_)), without);
     if (!thorough) return;
     if (auto again = roofed(piece.draft_index, without, piece.draft)) consider(std::move(again->roof), without);
@@ -329,7 +330,7 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
     try_beside_dormers_of(roof, false);
   }
   if (!best || !cheaper(best->cost, most, options_.same_cost)) return std::nullopt;
-  auto sharp = sharpened(best->roof, Judge(best->without, options_, raising_, run_));
+  auto sharp = sharpened(best->roof, judge_of(best->without));
   if (sharp.plan != best->roof.plan)
     if (const auto [dormers, cost] = dormers_of(sharp, all);
         !dormers.empty() && cost <= best->cost + options_.face_price && cheaper(cost, most, options_.same_cost) &&
@@ -345,7 +346,7 @@ auto Work::beside_dormers(const Piece& piece, double most) const -> std::optiona
 /// The dormers that can be built on a roof and are worth it, and what roof and dormers cost together on all of the
 /// ground, m²·m².
 auto Work::dormers_of(const Judged& roof, const Site& all) const -> std::pair<std::vector<Dormer>, double> {
-  const Judge judge(all, options_, raising_, run_);
+  const Judge judge = judge_of(all);
   const Judged over = seen_over(roof, all);
   View view = over.view;
   double misfit = judge.misfit_of(view);
@@ -374,7 +375,7 @@ auto Work::finished(Piece piece) const -> Piece {
     if (!raised || raised->outcome != extrude::Outcome::full) return std::nullopt;
     return std::move(*raised);
   };
-  auto sharp = sharpened(piece.roof, Judge(piece.site, options_, raising_, run_));
+  auto sharp = sharpened(piece.roof, judge_of(piece.site));
   // A scan melts dormers: what is as good to within that is said with them, as when planes are sharpened.
   const double most = sharp.cost + options_.face_price;
   std::optional<Piece> beside;
@@ -414,7 +415,7 @@ auto Work::with_dormers(Piece piece) const -> std::vector<Piece> {
 }
 
 auto Work::with_roof(const Piece& piece, const model::Plan& plan, double most) const -> std::optional<Piece> {
-  auto judged = Judge(piece.site, options_, raising_, run_)(plan);
+  auto judged = judge_of(piece.site)(plan);
   if (!judged || judged->cost > most) return std::nullopt;
   auto raised = this->raised(plan);
   if (!raised || raised->outcome != extrude::Outcome::full) return std::nullopt;

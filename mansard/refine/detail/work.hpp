@@ -45,8 +45,15 @@ class Work {
   Work(const rays::Scene& mesh, const rays::Scene* above, const Options& options, const extrude::Options& raising,
        const base::Run& run)
       : mesh_(mesh), above_(above), options_(options), raising_(raising), run_(run) {
-    if (options.samples.point_area > 0) points_.emplace(mesh, options);
+    if (options.samples.point_area > 0) points_ = std::make_shared<const Evidence>(mesh, options);
   }
+  /// The same with an account of its own.
+  [[nodiscard]] auto for_owner() const -> Work {
+    Work work = *this;
+    work.account_ = std::make_shared<Account>();
+    return work;
+  }
+  [[nodiscard]] auto account() const -> Account& { return *account_; }
 
   [[nodiscard]] auto look(const geometry::Polygon& polygon, double base) const -> Site;
 
@@ -89,6 +96,9 @@ class Work {
   [[nodiscard]] auto cancelled() const -> bool { return run_.cancelled(); }
 
  private:
+  [[nodiscard]] auto judge_of(const Site& site, KnownRoofs* known = nullptr) const -> Judge {
+    return {site, options_, raising_, run_, known, account_.get()};
+  }
   [[nodiscard]] auto beside_dormers(const Piece& piece, double most) const -> std::optional<Piece>;
   [[nodiscard]] auto dormers_of(const Judged& roof, const Site& all) const -> std::pair<std::vector<Dormer>, double>;
   [[nodiscard]] auto with_ceilings(Site site) const -> Site;
@@ -106,8 +116,9 @@ class Work {
       -> std::vector<Piece>;
 
   const rays::Scene& mesh_;
-  std::optional<Evidence> points_;  ///< of a scan that consists of points
-  const rays::Scene* above_;        ///< with the crowns of trees; null where there are none
+  std::shared_ptr<const Evidence> points_;  ///< of a scan that consists of points
+  std::shared_ptr<Account> account_ = std::make_shared<Account>();
+  const rays::Scene* above_;  ///< with the crowns of trees; null where there are none
   const Options& options_;
   const extrude::Options& raising_;
   const base::Run& run_;

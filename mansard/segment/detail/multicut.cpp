@@ -201,6 +201,15 @@ constexpr double whole_gap = 0.99;
 /// Half-way between that and the next gap that a labelling of whole cost can have, 1.99.
 constexpr double next_gap = 1.5;
 
+/// How many nodes a program of that size may take in all its rounds.
+auto most_nodes(const solver::Program& program, double node_work) -> std::int64_t {
+  double coefficients = 1;
+  for (const solver::Row& row : program.rows) coefficients += static_cast<double>(row.terms.size());
+  return static_cast<std::int64_t>(std::min(1e9, node_work / (coefficients * coefficients)));
+}
+/// A root, with its rounds of cuts, is as much work as ten nodes.
+constexpr std::int64_t nodes_of_root = 10;
+
 auto solve_part(const Multicut& problem, const MulticutLimits& limits, const Deadline& deadline, const base::Run& run)
     -> MulticutAnswer {
   MulticutAnswer answer;
@@ -234,8 +243,13 @@ auto solve_part(const Multicut& problem, const MulticutLimits& limits, const Dea
   while (answer.bound < answer.objective) {
     const auto left = deadline.left();
     if ((left && *left <= 0) || run.cancelled()) break;
-    const auto solution = solver::minimise(program, {.seconds = left, .nodes = limits.nodes, .gap = whole_gap},
-                                           values_of(problem, answer.labels));
+    const std::int64_t nodes_left =
+        most_nodes(program, limits.node_work) - answer.nodes - nodes_of_root * answer.rounds;
+    if (nodes_left <= 0 && answer.rounds > 0) break;
+    const auto solution = solver::minimise(
+        program,
+        {.seconds = left, .nodes = std::min(limits.nodes, std::max<std::int64_t>(nodes_left, 0)), .gap = whole_gap},
+        values_of(problem, answer.labels));
     ++answer.rounds;
     if (!solution) {
       answer.warnings.push_back(base::warning("segment-solver", solution.error().message));

@@ -50,6 +50,10 @@ struct MulticutLimits {
   std::int64_t nodes = 100000;    ///< of branch and bound, per solve
   bool cliques = false;           ///< rows for cliques of pairs from the start
   SearchLimits search;
+  /// Nodes times the square of the program's coefficients, at most. A node's work grows with that square (the factors
+  /// of its bases fill up): 50 ms at 28,000, so that all of them take some 6 s. Ordinary blocks have 4,000 coefficients
+  /// and 0 to 30 nodes (docs/decisions/0132-bounded-work.md).
+  double node_work = 1e11;
 };
 
 /// s_edge ≤ Σ s_path, by edges of the problem.
