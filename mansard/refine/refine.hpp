@@ -47,8 +47,8 @@ struct Refined {
 /// what its drafts covered, but for gaps under a millimetre that joining closes · 3 the same drafts and mesh give the
 /// same parts at any thread count · 4 a draft over which the mesh shows nothing stays as it is.
 /// `above`: the mesh with the crowns of trees, where `mesh` is without; a roof that they hide is below them.
-/// Cost: some dozens to hundreds of raises a draft. The work of an owner is at most about 80 µs a sample of its parts;
-/// a corner counts as 50 samples (docs/decisions/0132-bounded-work.md).
+/// Cost: some dozens to hundreds of raises a draft. The work of an owner is at most about 100 µs a sample of its parts;
+/// a corner counts as 100 samples (docs/decisions/0132-bounded-work.md).
 [[nodiscard]] auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Options& options,
                           const extrude::Options& raising, const base::Run& run = {},
                           const rays::Scene* above = nullptr) -> Refined;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <ranges>
 #include <set>
@@ -14,7 +15,7 @@ namespace mansard::refine::detail {
 namespace {
 
 /// As docs/decisions/0132-bounded-work.md measured it.
-constexpr std::uint64_t samples_of_corner = 50;
+constexpr std::uint64_t samples_of_corner = 100;
 /// Shares of what a search may take after which joining and cutting anew, then cutting, then the rest end. Chosen by
 /// hand, so that a search which ends early has tried something of each.
 constexpr double share_of_joining = 0.5, share_of_cutting = 0.8;
@@ -69,7 +70,7 @@ class Pieces {
       std::vector<std::size_t> open;
       for (std::size_t i = 0; i < pieces_.size(); ++i)
         if (!whole_.contains(pieces_[i].number)) open.push_back(i);
-      keep_affordable(open, [&](std::size_t i) { return roofs_of_split * work_of_one(pieces_[i]); });
+      keep_affordable(open, Paid::in_order, [&](std::size_t i) { return roofs_of_split * work_of_one(pieces_[i]); });
       std::vector<std::vector<Piece>> found(pieces_.size());
       base::parallel_for(open.size(), [&](std::size_t k) { found[open[k]] = work_.split(pieces_[open[k]]); });
       std::vector<Piece> next;
@@ -110,8 +111,7 @@ class Pieces {
     while (!work_.cancelled()) {
       auto fresh = fresh_pairs(was, may);
       if (united == United::all) {
-        std::ranges::stable_sort(fresh, {}, [this](const Fresh& one) { return work_of_union(one); });
-        keep_affordable(fresh, [this](const Fresh& one) { return work_of_union(one); });
+        keep_affordable(fresh, Paid::least_work_first, [this](const Fresh& one) { return work_of_union(one); });
         unite(fresh, was);
         std::erase_if(fresh, [](const Fresh& one) { return !one.pair->both; });
       }
@@ -122,7 +122,7 @@ class Pieces {
       rank(
           fresh, [](const Fresh& one) { return -one.promise; }, work_.options().same_cost);
       fresh = first_of(std::move(fresh), was);
-      keep_affordable(fresh, [this](const Fresh& one) { return roofs_of_recut * work_of_both(one); });
+      keep_affordable(fresh, Paid::in_order, [this](const Fresh& one) { return roofs_of_recut * work_of_both(one); });
       if (fresh.empty()) return;
       std::vector<std::vector<Piece>> found(fresh.size());
       base::parallel_for(fresh.size(), [&](std::size_t k) {
@@ -149,17 +149,28 @@ class Pieces {
     return one.pair->was_united ? 0 : roofs_of_union * work_of_both(one);
   }
 
-  /// What is left can be paid for, in the order that it has.
-  template <class Step, class Work>
-  void keep_affordable(std::vector<Step>& steps, Work work) {
+  /// What cannot be paid for any more is left out; what has the least work, or comes first, is paid for first. The rest
+  /// stays in order.
+  enum class Paid { least_work_first, in_order };
+  template <class Step, class Cost>
+  void keep_affordable(std::vector<Step>& steps, Paid paid, Cost cost) {
+    std::vector<std::size_t> order(steps.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (paid == Paid::least_work_first)
+      std::ranges::stable_sort(order, {}, [&](std::size_t k) { return cost(steps[k]); });
     std::uint64_t rest = left();
-    const auto dear = std::erase_if(steps, [&](const Step& step) {
-      const std::uint64_t needed = work(step);
-      if (needed > rest) return true;
-      rest -= needed;
-      return false;
-    });
-    if (dear > 0) work_.account().met_a_bound();
+    std::vector<bool> dear(steps.size(), false);
+    for (const std::size_t k : order) {
+      const std::uint64_t needed = cost(steps[k]);
+      dear[k] = needed > rest;
+      if (!dear[k]) rest -= needed;
+    }
+    if (std::ranges::find(dear, true) == dear.end()) return;
+    work_.account().met_a_bound();
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < steps.size(); ++k)
+      if (!dear[k]) steps[kept++] = steps[k];
+    steps.resize(kept);
   }
 
   /// Both pieces of each pair under one roof, if that was not tried; those that cannot be are tried no more.
