@@ -10,6 +10,7 @@
 #include "apps/cli/settings.hpp"
 #include "lab/explore/explore.hpp"
 #include "lab/simulate/simulate.hpp"
+#include "mansard/compare/compare.hpp"
 #include "mansard/base/text.hpp"
 
 namespace mansard::cli {
@@ -29,10 +30,12 @@ auto names_of(const Presets& presets) -> Words {
 struct KnownWords {
   std::map<std::string, Words> words;
   pipeline::Options pipeline;
+  compare::Options compare;
   simulate::Options simulate;
   std::vector<base::OptionList> lists = pipeline::option_lists(pipeline);
 
   KnownWords() {
+    lists.push_back(compare::option_list(compare));
     lists.push_back(simulate::option_list(simulate));
     words["--preset"] = names_of(pipeline::presets());
     words["simulate --preset"] = names_of(simulate::presets());
