@@ -207,7 +207,7 @@ def table(out):
     for way in WAYS:
         planted_of, found_of, right_of = collections.Counter(), collections.Counter(), collections.Counter()
         pairs = collections.defaultdict(lambda: [0, 0, 0, 0])
-        unchanged = false = doubtful = 0
+        unchanged = false = doubtful = found_doubtful = 0
         for survey_ in surveys:
             rows, pair = survey_["found"][way], pairs[survey_["old"], survey_["new"]]
             for building, kind in survey_["changes"].items():
@@ -216,6 +216,7 @@ def table(out):
                 pair[0] += 1
                 if own:
                     found_of[kind] += 1
+                    found_doubtful += all(row["ms_change_doubtful"] == "true" for row in own)
                     pair[1] += 1
                 elif os.environ.get("SHOW"):
                     print("missed", survey_["number"], survey_["kind"], survey_["old"], survey_["new"], building, kind,
@@ -237,7 +238,7 @@ def table(out):
                         print("false", survey_["number"], survey_["kind"], survey_["old"], survey_["new"], row)
         percent = lambda a, b: f"{100 * a / b:.1f} %" if b else "-"
         print(f"\n{way}: {len(surveys)} pairs of surveys; {sum(planted_of.values())} planted changes, {percent(sum(found_of.values()), sum(planted_of.values()))} found, "
-              f"{percent(sum(right_of.values()), sum(planted_of.values()))} with the right kind; {unchanged} unchanged buildings, "
+              f"{percent(found_doubtful, sum(planted_of.values()))} as doubtful, {percent(sum(right_of.values()), sum(planted_of.values()))} with the right kind; {unchanged} unchanged buildings, "
               f"{percent(false, unchanged)} reported as changed, {percent(doubtful, unchanged)} as doubtful")
         print("| planted | changes | found | right kind |\n|---|---|---|---|")
         for kind in CHANGES:

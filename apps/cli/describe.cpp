@@ -15,10 +15,10 @@
 #include "apps/cli/verbs.hpp"
 #include "lab/simulate/attributes.hpp"
 #include "lab/simulate/simulate.hpp"
-#include "mansard/report/changes.hpp"
 #include "mansard/edit/attributes.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/report/attributes.hpp"
+#include "mansard/report/changes.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -186,7 +186,8 @@ void print_json(const Known& known, const CLI::App& app, bool all) {
 
 auto all_attributes() -> std::vector<formats::Attribute> {
   auto all = report::attributes();
-  for (const auto& own : {report::change_attribute_list(), edit::attributes(), simulate::attributes()}) all.insert(all.end(), own.begin(), own.end());
+  for (const auto& own : {report::change_attribute_list(), edit::attributes(), simulate::attributes()})
+    all.insert(all.end(), own.begin(), own.end());
   return all;
 }
 

@@ -10,8 +10,8 @@
 #include "apps/cli/settings.hpp"
 #include "lab/explore/explore.hpp"
 #include "lab/simulate/simulate.hpp"
-#include "mansard/compare/compare.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/compare/compare.hpp"
 
 namespace mansard::cli {
 namespace {

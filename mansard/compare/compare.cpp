@@ -284,6 +284,7 @@ auto measured(const Pair& pair, Change change, const Ground& ground) -> Change {
   change.parts = parts_of(places, pair, change, By::pairs);
   std::ranges::stable_sort(change.parts,
                            [](const Part& a, const Part& b) { return std::abs(a.volume) > std::abs(b.volume); });
+  for (const auto& part : change.parts) change.differing += part.area;
   // What only models say, where the scans are at hand.
   if (change.parts.empty() && (pair.old_surfaces.has_scan() || pair.new_surfaces.has_scan()))
     for (const auto& part : parts_of(places, pair, change, By::models))
@@ -366,10 +367,9 @@ void conclude(const Pair& pair, double critical, Change& change) {
                       ? "it is in the new models only, but nothing was built: the old scan shows it, or it is too small"
                       : "it is in the old models only, but it is still there: other models or the new scan show it, or "
                         "it is too small"};
-  // Where a scan shows a change, it does not matter that a model is doubtful.
-  constexpr double probably_wrong = 0.5, well_seen = 0.5;
-  const auto doubt = [&](const State& state, const std::vector<std::uint32_t>& own, double seen, const char* which) {
-    if (seen >= well_seen) return;
+  // Also where a scan shows the change: what a model takes for a roof and is none, a crown, is in its scan too.
+  constexpr double probably_wrong = 0.5;
+  const auto doubt = [&](const State& state, const std::vector<std::uint32_t>& own, const char* which) {
     for (const auto b : own)
       if (const auto& right = state.buildings[b].right; right && *right < probably_wrong) {
         change.doubtful = true;
@@ -377,8 +377,8 @@ void conclude(const Pair& pair, double critical, Change& change) {
                         " is probably wrong (confidence " + base::to_text(*right, 2) + ")");
       }
   };
-  doubt(pair.old, change.old, change.old_seen, "old");
-  doubt(pair.now, change.now, change.new_seen, "new");
+  doubt(pair.old, change.old, "old");
+  doubt(pair.now, change.now, "new");
   words.insert(words.end(), change.why.begin(), change.why.end());
   change.why = std::move(words);
 }

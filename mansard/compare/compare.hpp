@@ -92,8 +92,9 @@ struct Change {
   double chance = 1;                    ///< that of the building: the least, times the number of ways that were tested
   std::size_t cells = 0;                ///< that were compared
   double area = 0, common = 0;          ///< m²; of these, and of those that are built on in both states
+  double differing = 0;                 ///< m² that differ, whether that is significant or not
   double old_seen = 0, new_seen = 0;    ///< share of these that the scan of the state covers
-  bool doubtful = false;                ///< one of the models is probably wrong
+  bool doubtful = false;                ///< one of its models is probably wrong
   std::vector<std::string> why;         ///< evidence and doubts, in words
 };
 

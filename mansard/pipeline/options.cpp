@@ -483,6 +483,8 @@ auto codes() -> std::vector<base::Code> {
        0},
       {"compare-outline", "A model has no outline seen from above, and is not compared.",
        "Look at the model in a viewer; export it with its roof or its ground.", 0},
+      {"since-models", "The models of the earlier run have no plans, so that they cannot be taken over.",
+       "Give --since a folder of 'mansard reconstruct', or a file that it wrote.", 3},
       {"report-run", "The run.json in a folder of results cannot be read.",
        "Run 'mansard reconstruct' again, or give the models themselves instead of the folder.", 3},
       {"pipeline-block-unknown", "A run of some blocks names an unknown block.",

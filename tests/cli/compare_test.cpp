@@ -109,6 +109,59 @@ TEST_F(Compare, uses_the_scan_of_a_run_while_it_is_there) {
   EXPECT_THAT(compared("--old-scan " + at("moved.obj")).out, HasSubstr("Old: models and scan"));
 }
 
+/// A box of 12 m by 9 m on a field that is there once.
+auto box(int west, double height, int& vertices) -> std::string {
+  std::string out;
+  for (const double z : {0.0, height})
+    for (const auto& [x, y] : {std::pair{0, 0}, std::pair{12, 0}, std::pair{12, 9}, std::pair{0, 9}})
+      out += "v " + std::to_string(west + x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  const auto face = [&](int a, int b, int c, int d) {
+    out += "f";
+    for (const int v : {a, b, c, d}) out += " " + std::to_string(vertices + v);
+    out += "\n";
+  };
+  face(1, 2, 6, 5), face(2, 3, 7, 6), face(3, 4, 8, 7), face(4, 1, 5, 8), face(5, 6, 7, 8);
+  vertices += 8;
+  return out;
+}
+
+auto scan_of(const std::vector<double>& heights) -> std::string {
+  std::string out = "v -20 -20 0\nv 200 -20 0\nv 200 40 0\nv -20 40 0\nf 1 2 3 4\n";
+  int vertices = 4;
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    if (heights[i] > 0) out += box(static_cast<int>(20 * i), heights[i], vertices);
+  return out;
+}
+
+TEST_F(Compare, makes_again_only_what_has_changed_since_an_earlier_run) {
+  const std::string footprints = put("six.geojson", street({1, 1, 1, 1, 1, 1})) + " -o ";
+  ASSERT_EQ(run("reconstruct -q " + put("a.obj", scan_of({6, 6, 6, 6, 6, 6})) + " " + footprints + at("first") +
+                " --formats cityjson,plans --crs local")
+                .exit,
+            0);
+  const auto again = run("reconstruct " + put("b.obj", scan_of({6, 9, 6, 6, 6, 6})) + " " + footprints + at("second") +
+                         " --formats cityjson,plans --crs local --since " + at("first"));
+  EXPECT_EQ(again.exit, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("5 of 6 blocks are as"));
+  const auto city = nlohmann::json::parse(read(at("second/model.city.json")));
+  const auto& objects = city["CityObjects"];
+  EXPECT_EQ(objects["h0"]["attributes"]["ms_kept_from"], at("first"));
+  EXPECT_NEAR(objects["h0"]["attributes"]["ms_h_roof_max"].get<double>(), 6, 0.01);
+  EXPECT_FALSE(objects["h1"]["attributes"].contains("ms_kept_from"));
+  EXPECT_NEAR(objects["h1"]["attributes"]["ms_h_roof_max"].get<double>(), 9, 0.01);
+  const auto report = nlohmann::json::parse(read(at("second/run.json")));
+  EXPECT_EQ(report["buildings"].size(), 6);
+  EXPECT_EQ(report["buildings"][0]["outcome"], "full");
+  // Again with nothing changed: all is taken over, and the models are the same.
+  const auto same = run("reconstruct " + at("b.obj") + " " + footprints + at("third") +
+                        " --formats cityjson,plans --crs local --since " + at("second"));
+  EXPECT_EQ(same.exit, 0) << same.err;
+  EXPECT_THAT(same.err, HasSubstr("6 of 6 blocks are as"));
+  EXPECT_EQ(nlohmann::json::parse(read(at("third/model.city.json")))["vertices"], city["vertices"]);
+  expect_refusal(run("reconstruct -q " + at("b.obj") + " " + footprints + at("out") + " --since " + at("b.obj")), 3,
+                 "since-models");
+}
+
 TEST_F(Compare, refuses_what_cannot_be_compared) {
   const std::string to = " -o " + at("out");
   put("far.geojson", street({6, 6, 6}, "EPSG::25832"));

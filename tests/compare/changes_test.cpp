@@ -295,7 +295,7 @@ TEST(Changes, smaller_than_what_is_of_interest_are_left_out) {
   EXPECT_THAT(kinds_of(changes(state_of(row()), state_of(now), options)), IsEmpty());
 }
 
-TEST(Changes, are_doubtful_where_a_model_is_probably_wrong_and_no_scan_shows_them) {
+TEST(Changes, are_doubtful_where_a_model_is_probably_wrong) {
   auto now = row();
   now[4].roof = flat(9);
   now[4].right = 0.2;
@@ -303,7 +303,6 @@ TEST(Changes, are_doubtful_where_a_model_is_probably_wrong_and_no_scan_shows_the
   EXPECT_TRUE(found.changes[4].doubtful);
   EXPECT_THAT(words_of(found.changes[4]), HasSubstr("the new model of h4 is probably wrong (confidence 0.20)"));
   EXPECT_FALSE(found.changes[3].doubtful);
-  EXPECT_FALSE(changes(scanned(state_of(row()), row()), scanned(state_of(now), now), {}).changes[4].doubtful);
 }
 
 TEST(Changes, cannot_be_told_of_a_building_without_a_model) {

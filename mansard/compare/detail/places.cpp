@@ -115,12 +115,14 @@ auto opened(const Places& places, const std::vector<bool>& marked, double radius
         if (x < 0 || y < 0 || x >= columns || y >= rows) return std::nullopt;
         return static_cast<std::size_t>(y * columns + x);
       };
+      // At a straight edge of the places that matter half of a disc is all that there can be.
+      std::size_t inside = 0;
       const bool fits = std::ranges::all_of(disc, [&](const auto& step) {
         const auto at = number(step);
-        if (at && marked[*at]) return true;
+        if (at && marked[*at]) return ++inside > 0;
         return only && (!at || places.all[*at].of != *only);
       });
-      if (!fits) continue;
+      if (!fits || 2 * inside < disc.size()) continue;
       for (const auto& step : disc)
         if (const auto at = number(step); at && marked[*at]) out[*at] = true;
     }

@@ -57,8 +57,8 @@ struct Ground {
 inline constexpr double finest_step = 0.25;  ///< m; as evaluate.grid
 [[nodiscard]] auto places_of(const Ground& ground, const Surfaces& old, const Surfaces& now) -> Places;
 
-/// Which of the marked places are in a disc of that radius, m, of marked ones; where `beyond`, other kinds of places do
-/// not matter to it, but those of `of` do.
+/// Which of the marked places are in a disc of that radius, m, of marked ones. With `only`, places that are not of that
+/// kind do not matter to a disc, of which half is marked then.
 [[nodiscard]] auto opened(const Places& places, const std::vector<bool>& marked, double radius, std::optional<Of> only)
     -> std::vector<bool>;
 
