@@ -76,14 +76,14 @@ auto bytes_for(const std::string& name, const report::Changes& changes) -> base:
 }
 
 /// The new models with what has changed as their attributes.
-auto write_changed(model::City city, const report::Changes& changes, const std::vector<Target>& targets,
+auto write_changed(model::City models, const report::Changes& changes, const std::vector<Target>& targets,
                    const formats::WriteOptions& options, const base::Run& run, Progress& progress)
     -> base::Result<void> {
   if (targets.empty()) return {};
   std::map<std::string, const compare::Change*> of;
   for (const auto& change : changes.found.changes)
     if (!change.now.empty()) of[changes.now.buildings[change.now.front()].id] = &change;
-  for (auto& building : city.buildings) {
+  for (auto& building : models.buildings) {
     const auto found = of.find(building.id);
     if (found == of.end()) continue;
     for (auto& [name, value] : report::change_attributes(changes, *found->second)) {
@@ -92,7 +92,7 @@ auto write_changed(model::City city, const report::Changes& changes, const std::
     }
   }
   base::Outputs outputs;
-  const auto written = write_models(city, targets, options, outputs);
+  const auto written = write_models(models, targets, options, outputs);
   if (!written) return written.failure();
   for (const auto& warning : *written) progress.say(base::to_string(warning));
   return outputs.commit(run.cancel);
