@@ -18,6 +18,7 @@
 #include "mansard/edit/attributes.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/report/attributes.hpp"
+#include "mansard/report/changes.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -35,14 +36,16 @@ auto kind_name(base::Option::Kind kind) -> const char* {
   return "";
 }
 
-/// The options of all modules: those that make models, then `simulate`.
+/// The options of all modules: those that make models, then `compare` and `simulate`.
 struct Known {
   pipeline::Options pipeline;
+  compare::Options compare;
   simulate::Options simulate;
   std::vector<base::OptionList> lists = pipeline::option_lists(pipeline);
   std::vector<pipeline::Preset> presets = pipeline::presets(), simulate_presets;
 
   Known() {
+    lists.push_back(compare::option_list(compare));
     lists.push_back(simulate::option_list(simulate));
     for (const auto& preset : simulate::presets())
       simulate_presets.push_back({preset.name, preset.meaning, preset.values});
@@ -183,7 +186,8 @@ void print_json(const Known& known, const CLI::App& app, bool all) {
 
 auto all_attributes() -> std::vector<formats::Attribute> {
   auto all = report::attributes();
-  for (const auto& own : {edit::attributes(), simulate::attributes()}) all.insert(all.end(), own.begin(), own.end());
+  for (const auto& own : {report::change_attribute_list(), edit::attributes(), simulate::attributes()})
+    all.insert(all.end(), own.begin(), own.end());
   return all;
 }
 

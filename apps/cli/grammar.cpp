@@ -11,6 +11,7 @@
 #include "lab/explore/explore.hpp"
 #include "lab/simulate/simulate.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/compare/compare.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -29,10 +30,12 @@ auto names_of(const Presets& presets) -> Words {
 struct KnownWords {
   std::map<std::string, Words> words;
   pipeline::Options pipeline;
+  compare::Options compare;
   simulate::Options simulate;
   std::vector<base::OptionList> lists = pipeline::option_lists(pipeline);
 
   KnownWords() {
+    lists.push_back(compare::option_list(compare));
     lists.push_back(simulate::option_list(simulate));
     words["--preset"] = names_of(pipeline::presets());
     words["simulate --preset"] = names_of(simulate::presets());

@@ -164,6 +164,7 @@ auto run(int argc, char** argv) -> int {
                                 info_verb(app, cancel),
                                 doctor_verb(app, cancel),
                                 evaluate_verb(app, cancel),
+                                compare_verb(app, cancel),
                                 segment_verb(app, typed, cancel),
                                 label_verb(app, cancel),
                                 new_verb(app, cancel),

@@ -18,6 +18,7 @@
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/pipeline/scan_pieces.hpp"
+#include "mansard/pipeline/since.hpp"
 #include "mansard/report/layers.hpp"
 #include "mansard/report/pictures.hpp"
 
@@ -31,6 +32,7 @@ struct ReconstructRequest {
   TerrainOut terrain;
   std::string out;
   std::string formats = "default";
+  std::string since;  ///< an earlier run; empty: all is made
   bool picture = false, layers = false, no_resume = false;
   double error_limit = 2.0;
   std::size_t share = 0, shares = 0;  ///< of the work, from 1; 0: all of it
@@ -176,6 +178,8 @@ auto check_share(const ReconstructRequest& request) -> base::Result<void> {
     return base::error("usage", "--share and --shares belong together: --share 1 --shares 8");
   if (request.share > request.shares)
     return base::error("usage", "there are only " + std::to_string(request.shares) + " shares", "--share");
+  if (request.shares > 0 && !request.since.empty())
+    return base::error("usage", "what has changed is found for the whole run; leave --shares out", "--since");
   if (request.shares > 0 && request.no_resume)
     return base::error("usage", "a share is made to be kept; leave --no-resume out", "--share");
   return {};
@@ -203,7 +207,7 @@ auto reconstruct(const ReconstructRequest& request, const base::Cancel& cancel) 
     return code;
   };
   // Layers are made of everything at once, and textured pictures of the whole mesh.
-  const bool whole = request.layers;
+  const bool whole = request.layers || !request.since.empty();
   const auto city = (whole || (request.picture && options->texture.bake)) && request.shares == 0
                         ? read_scan(request.scan, *options, run, progress).transform([](model::Scene&& scene) {
                             return ingest::CityScene{std::move(scene), nullptr};
@@ -233,6 +237,15 @@ auto reconstruct(const ReconstructRequest& request, const base::Cancel& cancel) 
     if (request.layers) std::printf("%s\n", (fs::path(request.out) / "model.gpkg").c_str());
     return made.outcomes.full == made.outcomes.all() ? all_done : some_fell_back;
   };
+  if (!request.since.empty()) {
+    const auto since = pipeline::find_changed(city->scene, request.since, *options, run);
+    if (!since) return stopped(since);
+    for (const auto& warning : since->old.warnings) progress.say(base::to_string(warning));
+    progress.say(std::to_string(since->all_blocks - since->blocks.size()) + " of " + std::to_string(since->all_blocks) +
+                 " blocks are as " + request.since + " has them and are taken over; the others are made again");
+    const auto result = pipeline::reconstruct_since(city->scene, *since, *options, run, keep, schedule);
+    return result ? finish(made_of(*result)) : stopped(result);
+  }
   if (whole) {
     const auto result = pipeline::reconstruct(city->scene, *options, run, keep, {}, schedule);
     return result ? finish(made_of(*result)) : stopped(result);
@@ -257,6 +270,10 @@ auto reconstruct_verb(CLI::App& app, std::vector<std::string> words, const base:
                  "Also write the layers of 'mansard segment' and all diagnostics to model.gpkg");
   verb->add_option("--formats", request->formats, formats_help)->type_name("FORMATS")->default_str(default_formats);
   request->terrain.add_to(*verb);
+  verb->add_option("--since", request->since,
+                   "Make again only what has changed since an earlier run, by the new scan, and take over the other "
+                   "models of that with their edits")
+      ->type_name("RUN");
   verb->add_flag("--no-resume", request->no_resume,
                  "Keep no blocks in OUTDIR/.mansard for a later run, and take none over from an earlier one");
   verb->add_option("--shares", request->shares, "Number of shares that the work is divided into; see --share")

@@ -14,6 +14,8 @@ auto attributes() -> std::vector<formats::Attribute> {
   add("ms_outcome", building, "string", "",
       "full: every part was extruded along its full profiles; fallback: some part is simpler; covered: its ground is "
       "part of its neighbours' models; refused: the footprint cannot be used, or the scan does not cover it.");
+  add("ms_kept_from", building, "string", "",
+      "The earlier run whose model it is, since nothing has changed there; only with --since.");
   add("ms_success", building, "boolean", "", "Whether the building has a model.");
   add("ms_quality", building, "string", "",
       "How likely the model is right: high (ms_confidence of 0.9 or more, and no check failed), medium (0.5 or more), "

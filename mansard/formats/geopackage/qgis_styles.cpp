@@ -102,12 +102,25 @@ constexpr std::array severity{
     Case{"warning", "Warning", {thin(amber, 90), amber, 0.4}},
 };
 
+constexpr std::array changes{
+    Case{"new", "New", {thin({46, 139, 87}, 150), {46, 139, 87}, 0.4}},
+    Case{"gone", "Gone", {thin(red, 150), red, 0.4}},
+    Case{"raised", "Raised", {thin(blue, 150), blue, 0.4}},
+    Case{"lowered", "Lowered", {thin({138, 111, 200}, 150), {138, 111, 200}, 0.4}},
+    Case{"extended", "Extended", {thin({127, 194, 90}, 150), {127, 194, 90}, 0.4}},
+    Case{"reduced", "Reduced", {thin(amber, 150), amber, 0.4}},
+    Case{"re-roofed", "Re-roofed", {thin({217, 98, 156}, 150), {217, 98, 156}, 0.4}},
+    Case{"unchanged", "Unchanged", {thin(pale, 60), pale, 0.2}},
+    Case{nullptr, "Not compared", {none, ink, 0.3, true}},
+};
+
 /// Of two with one name, the first whose field the layer has. "segment_…" is what layers of a segmentation are called
 /// beside a city's.
 constexpr std::array styles{
     LayerStyle{"gis_footprints", "ms_quality", "Buildings by how likely they are right", quality},
     LayerStyle{"gis_footprints", "ms_outcome", "Buildings by outcome", outcome},
     LayerStyle{"gis_footprints", nullptr, "Outlines of the footprints", gis},
+    LayerStyle{"changes", "ms_change", "Buildings by what has changed", changes},
     LayerStyle{"footprints", "part_id", "Outlines of the parts", plans},
     LayerStyle{"footprints", "faces", "Parts of the segmentation", pieces},
     LayerStyle{"segment_footprints", "faces", "Parts of the segmentation", pieces},
