@@ -13,6 +13,7 @@
 #include "apps/cli/layout.hpp"
 #include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
+#include "apps/server/review.hpp"
 #include "lab/simulate/attributes.hpp"
 #include "lab/simulate/simulate.hpp"
 #include "mansard/edit/attributes.hpp"
@@ -183,7 +184,8 @@ void print_json(const Known& known, const CLI::App& app, bool all) {
 
 auto all_attributes() -> std::vector<formats::Attribute> {
   auto all = report::attributes();
-  for (const auto& own : {edit::attributes(), simulate::attributes()}) all.insert(all.end(), own.begin(), own.end());
+  for (const auto& own : {edit::attributes(), server::review_attributes(), simulate::attributes()})
+    all.insert(all.end(), own.begin(), own.end());
   return all;
 }
 

@@ -33,8 +33,9 @@ export interface LoadedMap extends api.ErrorMap {
   cells: Float32Array; // rows from south to north; NaN where there is no value
 }
 
-export type Tab = "edit" | "run" | "buildings" | "attributes" | "plots" | "layers" | "compare";
-export type Flight = "home" | "top" | "selection";
+export type Tab = "edit" | "run" | "buildings" | "review" | "attributes" | "plots" | "layers" | "compare";
+/** case: to the selection, at once. */
+export type Flight = "home" | "top" | "selection" | "case";
 
 export const connected = signal(true);
 export const locked = signal(false); // the server runs, but refuses the token of this page

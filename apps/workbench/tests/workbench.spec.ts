@@ -866,6 +866,118 @@ test("attributes are shown, searched, and colour the models", async ({ clean: pa
   });
 });
 
+test("buildings are reviewed with keys alone, the worst first", { tag: "@firefox" }, async ({ clean: page, server, folder }) => {
+  await server.stop();
+  await server.start("--reviewer", "Ann");
+  await openSample(page, server);
+  await reconstruct(page, "reviewed");
+  const all = await buildings(page);
+  await page.getByRole("button", { name: "Close the first steps" }).click();
+  await page.keyboard.press("Escape");
+  await page.evaluate(() => (document.activeElement as HTMLElement | null)?.blur());
+
+  await page.keyboard.press("v");
+  const panel = page.getByRole("region", { name: "Review", exact: true });
+  const count = panel.getByRole("status").first();
+  await expect(count).toHaveText(`0 done (0 right, 0 wrong), ${all.length} left`);
+  await expect(panel.getByText("You decide as Ann")).toBeVisible();
+  const at = () => state(page, (s) => s.selection.value?.building);
+  await expect.poll(at).toBeTruthy();
+  const first = (await at())!;
+  const worst = Math.min(...all.flatMap((b) => (b.confidence === null || !b.parts.length ? [] : [b.confidence])));
+  expect((await buildingOf(page, first)).confidence).toBe(worst);
+  await expect(panel.locator(".review-place")).toBeVisible();
+  await expect(panel.locator(".review-models, .review-case > p.quiet").first()).toBeVisible();
+  await idle(page);
+  await picture(page, "review");
+  expect(await faint(page)).toEqual([]);
+
+  await test.step("a note and a decision are kept, and the next building is there", async () => {
+    await page.keyboard.press("c");
+    await page.keyboard.type("wrong ridge"); // keys decide nothing in a field
+    await expect(count).toContainText("0 done");
+    await page.keyboard.press("Enter");
+    await page.keyboard.press("w");
+    await expect(count).toContainText("1 done (0 right, 1 wrong)");
+    expect(await at()).not.toBe(first);
+    await page.keyboard.press("b");
+    expect(await at()).toBe(first);
+    await expect(panel).toContainText(/Wrong by Ann, \d{4}-\d\d-\d\d/);
+    await expect(panel.getByRole("textbox", { name: "Note" })).toHaveValue("wrong ridge");
+    await page.reload();
+    await open(page, "reviewed");
+    await expect(count).toContainText("1 done (0 right, 1 wrong)");
+  });
+
+  await test.step("it is an attribute of exports and lapses with the model", async () => {
+    const attributes = async () => {
+      const table = await server.get<api.AttributeTable>(`/api/runs/run-1/attributes?building=${encodeURIComponent(first)}`);
+      return table.buildings[0]!.values;
+    };
+    expect(await attributes()).toMatchObject({ ms_review: "wrong", ms_review_note: "wrong ridge", ms_reviewer: "Ann" });
+    await page.keyboard.press("1"); // takes the best of the other models
+    await expect.poll(async () => (await buildingOf(page, first)).edited).toBe(true);
+    await expect(panel).toContainText("Lapsed: it was decided wrong by Ann");
+    await expect(count).toContainText("0 done (0 right, 0 wrong)");
+    await expect(count).toContainText("1 lapsed");
+    expect(await attributes()).not.toHaveProperty("ms_review");
+    await expect(panel.getByRole("button", { name: /As the run made it/ })).toBeVisible();
+    await page.keyboard.press("Control+z");
+    await expect(count).toContainText("1 done (0 right, 1 wrong)");
+    await page.keyboard.press("e");
+    await expect(page.getByRole("application", { name: /^Profile of edge/ })).toBeVisible();
+    await page.keyboard.press("v");
+    await expect(panel.getByRole("region", { name: "Building under review" })).toContainText(first);
+  });
+
+  await test.step("a person who knows the keys goes on at once", async () => {
+    const times = () => page.evaluate(() => (window as unknown as { mansard: { caseTimes: number[] } }).mansard.caseTimes);
+    const before = (await times()).length;
+    await page.keyboard.press("n");
+    for (let i = 0; i < 20; ++i) {
+      await page.waitForTimeout(700); // to look; what is next is loaded meanwhile
+      const drawn = (await times()).length;
+      await page.keyboard.press(i % 4 ? "r" : "d");
+      await expect.poll(async () => (await times()).length).toBeGreaterThan(drawn);
+    }
+    const told = (await times()).slice(before).sort((a, b) => a - b);
+    const report = `from a key to the image of the next building, ms: median ${told[told.length >> 1]!.toFixed(0)}, worst ${told.at(-1)!.toFixed(0)} of ${told.length}`;
+    console.log(report);
+    if (process.env.MANSARD_PICTURES) writeFileSync(join(process.env.MANSARD_PICTURES, "review.txt"), report + "\n");
+    await expect(count).toContainText("5 later");
+  });
+
+  await test.step("the decisions of another person are added", async () => {
+    const file = await saved(page, folder, () => page.getByRole("button", { name: "Save decisions" }).click());
+    const review = JSON.parse(readFileSync(file, "utf8")) as api.ReviewFile;
+    expect(review.decisions.length).toBe(21);
+    const theirs = review.decisions.filter((d) => d.building === first);
+    theirs[0] = { ...theirs[0]!, decision: "right", reviewer: "Bob", note: "", time: "2199-01-01T00:00:00Z" };
+    writeFileSync(file, JSON.stringify({ ...review, decisions: theirs }));
+    await page.getByLabel("File of decisions to merge").setInputFiles(file);
+    await expect(page.getByText(/right by Bob is kept, wrong by Ann was earlier/)).toBeVisible();
+    const stored = JSON.parse(readFileSync(join(folder, "project/review.json"), "utf8")) as api.ReviewFile;
+    expect(stored.decisions.find((d) => d.building === first)?.reviewer).toBe("Bob");
+    expect(stored.decisions.length).toBe(21);
+    // The command line reads the same file.
+    expect(mansard("review", join(folder, "project"))).toContain("21 decisions: 16 right, 0 wrong, 5 later");
+  });
+
+  await test.step("small windows and a zoom of 200 %", async () => {
+    for (const [width, height] of [[1024, 640], [683, 384]] as const) {
+      await page.setViewportSize({ width, height });
+      await idle(page);
+      await picture(page, `small-${width}-review`);
+      for (const name of ["Right", "Wrong", "Later", "Back", "Next", "Edit"]) await panel.getByRole("button", { name, exact: true }).scrollIntoViewIfNeeded();
+      const cut = await page.evaluate(() =>
+        [...document.querySelectorAll<HTMLElement>(".review, .review *:not(.unseen)")].filter((e) => e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).overflowX !== "visible").map((e) => e.className || e.tagName),
+      );
+      expect(cut).toEqual([]);
+      expect(await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth)).toBeLessThanOrEqual(0);
+    }
+  });
+});
+
 test("distances, heights, angles and areas are measured on models and scan", async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "measured");

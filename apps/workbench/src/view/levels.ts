@@ -48,7 +48,7 @@ export class Levels {
   }
 
   /** Replaces the tile with the largest visible error by its children, as long as they are loaded and fit the budget. */
-  choose(eye: Eye, has: (id: string) => boolean, budget: number, tolerance = 1.5): Choice {
+  choose(eye: Eye, has: (id: string) => boolean, budget: number, tolerance: number): Choice {
     const wanted: { tile: TileInfo; looks: number }[] = [];
     const draw: TileInfo[] = [];
     const visible = this.roots.filter(eye.sees).map((tile) => ({ tile, looks: this.looks(tile, eye) }));

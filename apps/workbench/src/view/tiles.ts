@@ -6,6 +6,7 @@ import { Budget, type Eye, Levels } from "./levels";
 import { fade, meshLook, meshMaterial } from "./materials";
 import { forget, textureFrom } from "./textures";
 
+const usualTolerance = 1.5;
 const keptAtMost = 6_000_000; // triangles
 const atOnce = 4; // fetches
 const picturesAtOnce = 2;
@@ -81,10 +82,11 @@ export class Tiles {
     this.arrived();
   }
 
-  /** To be called before each image. */
-  update(eye: Eye) {
+  /** To be called before each image. `ahead`: where the camera will be next; what is needed there is loaded last. `tolerance`:
+   *  error in pixels of what is drawn. */
+  update(eye: Eye, ahead: readonly Eye[] = [], tolerance = usualTolerance) {
     ++this.round;
-    const { draw, fetch } = this.levels.choose(eye, (id) => this.loaded.has(id), this.budget.triangles);
+    const { draw, fetch } = this.levels.choose(eye, (id) => this.loaded.has(id), this.budget.triangles, tolerance);
     for (const { mesh, pictured } of this.loaded.values()) {
       mesh.visible = false;
       if (pictured) pictured.visible = false;
@@ -95,7 +97,8 @@ export class Tiles {
       entry.used = this.round;
     }
     if (this.textured) this.paint(draw);
-    this.wanted = fetch.filter((t) => !this.failed.has(t.id));
+    const later = ahead.flatMap((next) => this.levels.choose(next, (id) => this.loaded.has(id), this.budget.triangles, usualTolerance).fetch);
+    this.wanted = [...fetch, ...later].filter((t) => !this.failed.has(t.id));
     this.evict();
     this.fetchMore();
   }
