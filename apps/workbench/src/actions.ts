@@ -573,7 +573,10 @@ async function step(which: "undo" | "redo") {
   const { edits, done } = open.history;
   if (which === "undo" ? done === 0 : done === edits.length) return;
   const answer = await attempt(client[which](open.id));
-  if (answer) take(open.id, answer);
+  if (!answer) return;
+  take(open.id, answer);
+  // What it said of the edit is not so any more.
+  state.messages.value = state.messages.value.filter((m) => m.code !== "edit-dormers");
 }
 
 /** Applies the edits of another run to this one, and says which buildings they do not fit any more. */

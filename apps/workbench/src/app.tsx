@@ -84,8 +84,8 @@ export function App() {
               </div>
             )}
           </main>
-          <Splitter />
           <aside aria-label="Panels">
+            <Splitter />
             <Tabs />
             <ReasonsStrip />
             <Panel />

@@ -279,6 +279,70 @@ test("models of an earlier run are opened, edited and exported", { tag: "@firefo
   expect(exports.sort()).toContain("model.3dtiles");
 });
 
+test("typed values, the table of buildings and its search", async ({ clean: page, server, folder }) => {
+  await page.goto(server.link);
+  await page.getByLabel("Models that mansard wrote").fill(someModel(folder));
+  await page.getByRole("button", { name: "Open model" }).click();
+  await open(page, "street.city.json");
+  await pick(page, "middle");
+  const edits = () => state(page, (s) => s.run.value!.history.done);
+  const cap = page.getByRole("textbox", { name: "Cap, metres" });
+
+  await test.step("the value that is there is no edit, and Ctrl+Z takes a typed one back at once", async () => {
+    const before = await cap.inputValue();
+    await cap.fill(`${before}0`); // "9.000" as "9.0000"
+    await cap.press("Enter");
+    await cap.fill("7.5");
+    await cap.press("Enter");
+    await expect.poll(edits).toBe(1);
+    await expect(cap).toBeFocused();
+    await cap.press("Control+z");
+    await expect.poll(edits).toBe(0);
+    await expect(cap).toHaveValue(before);
+    await cap.press("Control+Shift+z");
+    await expect.poll(edits).toBe(1);
+  });
+
+  await test.step("hints are read to their ends", async () => {
+    await page.getByRole("button", { name: "Split", exact: true }).click();
+    const hint = page.locator(".edit-hint > span").first();
+    await expect(hint).toContainText("Enter");
+    expect(await hint.evaluate((e) => e.scrollWidth - e.clientWidth)).toBeLessThanOrEqual(0);
+    await page.keyboard.press("Escape");
+    expect(await faint(page), "also of a pressed button under the pointer").toEqual([]);
+  });
+
+  await test.step("heads are over their columns, and the grid has the selected row", async () => {
+    await page.getByRole("tab", { name: "Buildings" }).click();
+    await page.getByLabel("Filter buildings").fill("");
+    const right = async (of: Locator) => {
+      const box = (await of.boundingBox())!;
+      return box.x + box.width;
+    };
+    const cells = page.getByRole("row", { name: /^left/ }).getByRole("gridcell");
+    for (const [i, head] of (await page.getByRole("columnheader").all()).entries())
+      expect(await right(head), `column ${i}`).toBeCloseTo(await right(cells.nth(i)), 0);
+    const grid = page.getByRole("grid", { name: "Buildings" });
+    await grid.focus();
+    await page.keyboard.press("End");
+    await expect(page.getByRole("row", { selected: true })).toContainText("right");
+    const active = (await grid.getAttribute("aria-activedescendant"))!;
+    await expect(page.locator(`#${active}`)).toContainText("right");
+    expect(await page.getByRole("rowgroup").getAttribute("aria-activedescendant")).toBe(null);
+    await expect(page.getByRole("heading", { level: 1 })).toHaveText("mansard");
+  });
+
+  await test.step("columns are compared by name, and a name that nobody has is said", async () => {
+    const filter = page.getByLabel("Filter buildings");
+    await filter.fill("volume>1");
+    await expect(page.getByRole("row")).toHaveCount(4);
+    await filter.fill("volume<1");
+    await expect(page.getByText("No building matches the filter.")).toBeVisible();
+    await filter.fill("measuredHieght>1");
+    await expect(page.getByText(/No building has an attribute named “measuredhieght”/)).toBeVisible();
+  });
+});
+
 test("a part is split along a drawn line and merged again", async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "whole");
@@ -955,7 +1019,7 @@ test("buildings are reviewed with keys alone, the worst first", { tag: "@firefox
     theirs[0] = { ...theirs[0]!, decision: "right", reviewer: "Bob", note: "", time: "2199-01-01T00:00:00Z" };
     writeFileSync(file, JSON.stringify({ ...review, decisions: theirs }));
     await page.getByLabel("File of decisions to merge").setInputFiles(file);
-    await expect(page.getByText(/right by Bob is kept, wrong by Ann was earlier/)).toBeVisible();
+    await expect(page.getByText(/Right by Bob is kept, wrong by Ann was earlier/)).toBeVisible();
     const stored = JSON.parse(readFileSync(join(folder, "project/review.json"), "utf8")) as api.ReviewFile;
     expect(stored.decisions.find((d) => d.building === first)?.reviewer).toBe("Bob");
     expect(stored.decisions.length).toBe(21);

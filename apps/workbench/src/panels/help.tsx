@@ -45,7 +45,7 @@ export function HelpSheet() {
         aria-label={state.helpPage.value === "keys" ? "Keyboard" : "Manual"}
         onClick={(e) => e.stopPropagation()}
       >
-        <header>
+        <div class="sheet-head">
           <div class="help-pages">
             {(["keys", "manual"] as const).map((page) => (
               <button
@@ -68,7 +68,7 @@ export function HelpSheet() {
           >
             <Icon name="close" />
           </button>
-        </header>
+        </div>
         {state.helpPage.value === "manual" && <Manual />}
         {state.helpPage.value === "keys" && [keys, pointer, reviewKeys].map((rows, i) => (
           <dl key={i} aria-label={["Keys", "Pointer", "Keys of the panel Review"][i]}>

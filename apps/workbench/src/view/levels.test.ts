@@ -33,7 +33,7 @@ describe("the choice of tiles", () => {
   const levels = new Levels(pyramid(4));
 
   it("is fine near the camera and coarse far away, and covers everything once", () => {
-    const { draw, fetch } = levels.choose(eye([50, 50, 30]), all, 1e9, 1.5);
+    const { draw, fetch } = levels.choose(eye([50, 50, 30]), all, 1e9);
     expect(fetch).toEqual([]);
     expect(area(draw)).toBe(1600 * 1600);
     const here = draw.find((t) => t.low[0] <= 50 && t.high[0] > 50 && t.low[1] <= 50 && t.high[1] > 50)!;
@@ -43,7 +43,7 @@ describe("the choice of tiles", () => {
   });
 
   it("draws nothing finer than visible", () => {
-    const { draw } = levels.choose(eye([800, 800, 2000]), all, 1e9, 1.5);
+    const { draw } = levels.choose(eye([800, 800, 2000]), all, 1e9);
     for (const tile of draw) {
       const parentError = errorOf(tile.level + 1);
       if (tile.level < 4) expect((parentError * 1000) / 2000).toBeGreaterThan(1.4);
@@ -51,7 +51,7 @@ describe("the choice of tiles", () => {
   });
 
   it("stays within its budget, used where the error is most visible", () => {
-    const { draw } = levels.choose(eye([50, 50, 5]), all, 20_000, 1.5);
+    const { draw } = levels.choose(eye([50, 50, 5]), all, 20_000);
     expect(draw.reduce((sum, t) => sum + t.triangles, 0)).toBeLessThanOrEqual(20_000);
     expect(area(draw)).toBe(1600 * 1600);
     expect(draw.some((t) => t.level === 0 && t.column === 0 && t.row === 0)).toBe(true);
@@ -83,7 +83,7 @@ describe("the choice of tiles", () => {
 
   it("treats tiles without a coarser tile as roots", () => {
     const lonely = pyramid(2).filter((t) => t.id !== "1-1-1" && t.id !== "2-0-0");
-    const { draw } = new Levels(lonely).choose(eye([300, 300, 9000]), all, 1e9, 1.5);
+    const { draw } = new Levels(lonely).choose(eye([300, 300, 9000]), all, 1e9);
     expect(area(draw)).toBe(400 * 400);
   });
 });

@@ -6,7 +6,6 @@ import { Budget, type Eye, Levels } from "./levels";
 import { fade, meshLook, meshMaterial } from "./materials";
 import { forget, textureFrom } from "./textures";
 
-const usualTolerance = 1.5;
 const keptAtMost = 6_000_000; // triangles
 const atOnce = 4; // fetches
 const picturesAtOnce = 2;
@@ -84,7 +83,7 @@ export class Tiles {
 
   /** To be called before each image. `ahead`: where the camera will be next; what is needed there is loaded last. `tolerance`:
    *  error in pixels of what is drawn. */
-  update(eye: Eye, ahead: readonly Eye[] = [], tolerance = usualTolerance) {
+  update(eye: Eye, ahead: readonly Eye[] = [], tolerance?: number) {
     ++this.round;
     const { draw, fetch } = this.levels.choose(eye, (id) => this.loaded.has(id), this.budget.triangles, tolerance);
     for (const { mesh, pictured } of this.loaded.values()) {
@@ -97,7 +96,7 @@ export class Tiles {
       entry.used = this.round;
     }
     if (this.textured) this.paint(draw);
-    const later = ahead.flatMap((next) => this.levels.choose(next, (id) => this.loaded.has(id), this.budget.triangles, usualTolerance).fetch);
+    const later = ahead.flatMap((next) => this.levels.choose(next, (id) => this.loaded.has(id), this.budget.triangles).fetch);
     this.wanted = [...fetch, ...later].filter((t) => !this.failed.has(t.id));
     this.evict();
     this.fetchMore();

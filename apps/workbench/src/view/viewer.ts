@@ -1162,7 +1162,7 @@ export class Viewer {
           other.output.group.visible = other === side;
           if (other.segmentation) other.segmentation.group.visible = other === side;
         }
-        this.highlight.group.visible = i === 0 || second !== null;
+        this.highlight.group.visible = i === 0; // it is of the run on the left
         this.cap.object.visible = this.capLines.object.visible = i === 0 && this.filled > 0;
         this.showMarks(i);
         if (split !== null) this.pane(0, i ? split : 0, i ? this.width - split : split);
