@@ -1,4 +1,5 @@
-// Where in a building a person should look first: where its scan and its model differ most, or what the scan does not cover.
+// Where in a building a person should look first: where its scan and its model differ most, or what the scan does not
+// cover.
 #pragma once
 
 #include <array>

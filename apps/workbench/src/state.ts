@@ -104,6 +104,9 @@ export const sceneRead = computed(
   () => scene.value !== null && !jobs.value.some((j) => j.kind === "read" && (j.state === "queued" || j.state === "running")),
 );
 
+/** Whether the error maps of a run can be had: those of an edited one are measured again, which needs the inputs. */
+export const hasMaps = (run: OpenRun | null) => run !== null && (run.history.done === 0 || sceneRead.value);
+
 /** The building to draw: its draft, if it has one. */
 export function shown(id: string): api.RaisedBuilding | undefined {
   return draft.value?.raised.get(id) ?? run.value?.buildings.get(id);

@@ -35,9 +35,10 @@ const errors = computed(() => {
 
 export function PlotsPanel() {
   const run = state.run.value;
+  const measured = state.hasMaps(run);
   useEffect(() => {
-    if (run) void needErrorMaps(run.id);
-  }, [run?.id]);
+    if (run && measured) void needErrorMaps(run.id);
+  }, [run?.id, measured]);
   if (!run) return <p class="quiet pad">No run is open.</p>;
   return (
     <div class="panel">

@@ -245,7 +245,7 @@ function connect(to: Viewer): () => void {
         }),
         effect(() => {
           const run = id();
-          if (run && !state.isBefore(run) && choices.value.error.shown && !state.outdatedMaps.value.has(run)) void actions.needErrorMaps(run);
+          if (run && !state.isBefore(run) && choices.value.error.shown && !state.outdatedMaps.value.has(run) && state.hasMaps((which ? state.other : state.run).value)) void actions.needErrorMaps(run);
         }),
         effect(() => to.setSegmentation(which, state.segmentations.value.get(id() ?? "") ?? null)),
         effect(() => to.setErrorMaps(which, state.errorMaps.value.get(id() ?? "") ?? null)),
