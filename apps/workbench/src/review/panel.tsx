@@ -123,7 +123,12 @@ function Doubt({ building }: { building: api.Building }) {
   const error = rmse(building.mse);
   return (
     <>
-      <p class="review-reason">{first ?? "Nothing speaks against this model."}</p>
+      <p class="review-reason">
+        {first ??
+          (building.confidence === null
+            ? "No reason for doubt is known: it was edited, or made without a scan."
+            : "Nothing speaks against this model.")}
+      </p>
       {shown?.place && <p class="review-place">{placeInWords(shown.place)}</p>}
       <p class="quiet">
         {sentence(sureInWords(building))}

@@ -9,15 +9,13 @@ export interface Placed {
   rmse: number | null; // m
 }
 
-const natural = new Intl.Collator("en", { numeric: true });
-
 /** Ids, the worst first: those without a model; then by the probability that the model is right; then those of which none is
- *  known, the largest error first. */
+ *  known, the largest error first. Equal ones keep their order. */
 export function worstFirst(rows: readonly Placed[]): string[] {
   const group = (r: Placed) => (r.parts === 0 ? 0 : r.confidence !== null ? 1 : 2);
   const value = (r: Placed) => r.confidence ?? -(r.rmse ?? -1);
   return [...rows]
-    .sort((a, b) => group(a) - group(b) || (group(a) > 0 && value(a) - value(b)) || natural.compare(a.id, b.id))
+    .sort((a, b) => group(a) - group(b) || (group(a) > 0 ? value(a) - value(b) : 0))
     .map((r) => r.id);
 }
 

@@ -5,7 +5,7 @@ import { Refused } from "../api/client";
 import type * as api from "../api/types";
 import { session } from "../edit/here";
 import { keep, kept } from "../keep";
-import { rowOf } from "../panels/table";
+import { rowOf, sorted } from "../panels/table";
 import { count } from "../panels/words";
 import * as state from "../state";
 import { viewer } from "../view/current";
@@ -39,7 +39,7 @@ export function gather() {
     queue.value = [];
     return;
   }
-  const rows = run.large?.rows ?? [...run.buildings.values()].map(rowOf);
+  const rows = sorted(run.large?.rows ?? [...run.buildings.values()].map(rowOf), { column: "id", down: false });
   if (order.peek() === "list") queue.value = state.order.peek().length ? [...state.order.peek()] : rows.map((r) => r.id);
   else {
     const seen = viewer.peek();
