@@ -169,6 +169,7 @@ auto run(int argc, char** argv) -> int {
                                 label_verb(app, cancel),
                                 new_verb(app, cancel),
                                 serve_verb(app, cancel),
+                                review_verb(app),
                                 simulate_verb(app, cancel),
                                 explore_verb(app, typed, cancel),
                                 cluster_verb(app),

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -73,6 +74,12 @@ auto own_sample() -> fs::path {
   return (fs::is_directory(installed, status) ? installed : folder / "../../../data/delft").lexically_normal();
 }
 
+/// The name that the user has logged in with; empty if nothing says it, as in some containers.
+auto user_name() -> std::string {
+  const char* user = std::getenv("USER");  // NOLINT: nothing changes the environment
+  return user == nullptr ? "" : user;
+}
+
 auto serve(const ServeRequest& request, const base::Cancel& cancel) -> int {
   auto options = request.options;
   options.project = request.project;
@@ -89,6 +96,7 @@ auto serve(const ServeRequest& request, const base::Cancel& cancel) -> int {
     if (auto there = formats::check_input(request.basemap); !there) return give_up(there.error());
     options.basemap.file = fs::absolute(request.basemap);
   }
+  if (options.reviewer.empty()) options.reviewer = user_name();
   base::limit_threads(request.jobs);
   if (!server::is_loopback(options.address))
     std::fprintf(
@@ -132,6 +140,10 @@ auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {
                    "Text to show with the basemap, as its licence asks for: '© OpenStreetMap contributors'")
       ->type_name("TEXT")
       ->needs(basemap);
+  verb->add_option("--reviewer", request->options.reviewer,
+                   "Who decides about models on the page, written beside each decision; without it, the name of the "
+                   "user")
+      ->type_name("NAME");
   verb->add_option("--upload-limit", request->upload_limit, "Maximum size of an uploaded file, in MB")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 24));
   add_jobs(*verb, request->jobs);

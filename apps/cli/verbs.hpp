@@ -29,6 +29,7 @@ struct Verb {
 [[nodiscard]] auto doctor_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto new_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto serve_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto review_verb(CLI::App& app) -> Verb;
 [[nodiscard]] auto cluster_verb(CLI::App& app) -> Verb;
 [[nodiscard]] auto status_verb(CLI::App& app) -> Verb;
 [[nodiscard]] auto options_verb(CLI::App& app) -> Verb;

@@ -6,6 +6,7 @@
 //   models_edits.cpp  edits, undo, redo
 //   models_scores.cpp the scores of the edited models
 //   models_kept.cpp   what was measured, kept in the folder of the run
+//   models_review.cpp what a person who reviews a building is shown beside it
 #pragma once
 
 #include <cstdint>
@@ -22,6 +23,7 @@
 #include "apps/server/json.hpp"
 #include "apps/server/project.hpp"
 #include "apps/server/requests.hpp"
+#include "apps/server/review.hpp"
 #include "apps/server/scene.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/edit/edit.hpp"
@@ -63,7 +65,9 @@ class Models {
   /// The buildings in a tile of the list: those whose box in plan has its centre there.
   [[nodiscard]] auto tile(std::int64_t column, std::int64_t row) const -> std::string;
   /// {"ids": …}: the buildings with every word in their id, block, outcome or attributes, as the page finds them.
-  [[nodiscard]] auto search(const std::string& words) const -> std::string;
+  /// `more`: attributes of buildings that are not in the files of the run, by id.
+  [[nodiscard]] auto search(const std::string& words,
+                            const std::map<std::string, model::Attributes, std::less<>>& more) const -> std::string;
   /// {"buildings": [RaisedBuilding]}. Fails with "edit-building".
   [[nodiscard]] auto preview(const std::vector<edit::Change>& changes, const OpenScene* scene) const
       -> base::Result<std::string>;
@@ -109,6 +113,17 @@ class Models {
     std::vector<model::LabelledSolid> models;
   };
   [[nodiscard]] auto solids_of(const std::string& building) const -> base::Result<Solids>;
+
+  /// What a person who reviews the building is shown beside it: ReviewCase of openapi.json. Fails with "edit-building".
+  [[nodiscard]] auto review_case(const std::string& building, const OpenScene* scene) const
+      -> base::Result<std::string>;
+  /// model_key and revision of a building as it is now; none for an unknown one.
+  struct ModelNow {
+    std::string model;
+    std::uint64_t revision = 0;
+    bool changed = false;  ///< its plans are not those of the run
+  };
+  [[nodiscard]] auto model_now(std::string_view building) const -> std::optional<ModelNow>;
 
   [[nodiscard]] auto frame() const -> const model::Frame& { return city_.frame; }
   /// The box of all plans, in the frame; empty if there are none.

@@ -150,7 +150,8 @@ auto Models::tile(std::int64_t column, std::int64_t row) const -> std::string {
   return R"({"buildings":[)" + out + "]}";
 }
 
-auto Models::search(const std::string& words) const -> std::string {
+auto Models::search(const std::string& words, const std::map<std::string, model::Attributes, std::less<>>& more) const
+    -> std::string {
   const auto now = view();
   const auto terms = terms_of(words);
   std::string out;
@@ -158,6 +159,7 @@ auto Models::search(const std::string& words) const -> std::string {
     const auto& building = *now->buildings[b];
     std::vector<const model::Attributes*> lists{&city_.buildings[b].attributes};
     for (const auto& part : city_.buildings[b].parts) lists.push_back(&part.attributes);
+    if (const auto found = more.find(building.id); found != more.end()) lists.push_back(&found->second);
     const auto has = [&](const Term& term) {
       if (term.is != 0) return holds(term, lists);
       const auto in = [&](const std::string& text) { return base::lower(text).find(term.text) != std::string::npos; };

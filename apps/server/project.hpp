@@ -1,6 +1,7 @@
 // A project on disk: its inputs and its runs. The files are consistent at any moment.
 //
 //   project.json            inputs by path, size and SHA-256, and the options they are read with
+//   review.json             what people decided about the models
 //   inputs/                 uploaded files
 //   runs/run-3/run.json     label, state, options, numbers; written last, so that a run in the state "done" has all
 //                           other files

@@ -206,6 +206,21 @@ auto read_merge(std::string_view body) -> base::Result<MergeRequest> {
   });
 }
 
+auto read_review_request(std::string_view body) -> base::Result<ReviewRequest> {
+  constexpr std::size_t longest_note = 2000;  // bytes; attributes of some formats take no more
+  return reading(body, [](const Item& item) {
+    item.object({"building", "revision", "decision", "note"});
+    ReviewRequest request{item.member("building").text(), item.member("revision").integer(), {}, {}};
+    if (const auto decision = item.member("decision"); !decision.json.is_null()) {
+      request.decision = verdict_of(decision.text());
+      if (!request.decision) decision.refuse("\"right\", \"wrong\", \"later\" or null");
+    }
+    if (item.has("note")) request.note = base::on_one_line(item.member("note").text());
+    if (request.note.size() > longest_note) item.member("note").refuse("a string of at most 2000 bytes");
+    return request;
+  });
+}
+
 auto read_export(std::string_view body) -> base::Result<ExportRequest> {
   return reading(body, [](const Item& item) {
     item.object({"overwrite", "formats"});

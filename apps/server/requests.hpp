@@ -1,12 +1,15 @@
 // The bodies of requests, parsed strictly: every error names the place, e.g. changes[0].parts[1].plan.cap.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "apps/server/project.hpp"
+#include "apps/server/review.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/edit/edit.hpp"
 #include "mansard/model/plan.hpp"
@@ -35,6 +38,12 @@ struct SectionRequest {
   std::size_t ring = 0, edge = 0;
   double share = 0;
 };
+struct ReviewRequest {
+  std::string building;
+  std::uint64_t revision = 0;       ///< of the building that was looked at
+  std::optional<Verdict> decision;  ///< none: the decision is taken back
+  std::string note;
+};
 struct PartName {
   std::string building, part;
 };
@@ -54,10 +63,11 @@ using MergeRequest = std::pair<PartName, PartName>;
 [[nodiscard]] auto read_edit(std::string_view body) -> base::Result<edit::Edit>;
 [[nodiscard]] auto read_split(std::string_view body) -> base::Result<SplitRequest>;
 [[nodiscard]] auto read_merge(std::string_view body) -> base::Result<MergeRequest>;
+[[nodiscard]] auto read_review_request(std::string_view body) -> base::Result<ReviewRequest>;
 [[nodiscard]] auto read_export(std::string_view body) -> base::Result<ExportRequest>;
-/// For calls without parameters: the body is empty or {}.
 /// The run whose edits are carried over.
 [[nodiscard]] auto read_from(std::string_view body) -> base::Result<std::string>;
+/// For calls without parameters: the body is empty or {}.
 [[nodiscard]] auto read_nothing(std::string_view body) -> base::Result<void>;
 
 /// Checks that the plan has the edge and that the share is from 0 to 1. Fails with "server-body".

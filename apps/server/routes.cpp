@@ -152,6 +152,19 @@ auto table() -> std::vector<Route> {
                  [](auto& w, const auto& call, auto from) { return w.carry_over(run_of(call), from, call.client); })},
       {"POST", "/api/runs/{run}/undo", sends, gives, without_body(&Workspace::undo)},
       {"POST", "/api/runs/{run}/redo", sends, gives, without_body(&Workspace::redo)},
+      {"GET", "/api/review", nothing, gives, [](auto& w, const auto&) { return w.review_of_project(); }},
+      {"POST", "/api/review/merge", sends, gives,
+       [](auto& w, const auto& call) { return w.merge_review(call.body, call.client); }},
+      {"GET", "/api/runs/{run}/review", nothing, gives,
+       [](auto& w, const auto& call) { return w.review(run_of(call)); }},
+      {"POST", "/api/runs/{run}/review", sends, gives,
+       with_body(read_review_request,
+                 [](auto& w, const auto& call, auto request) { return w.decide(run_of(call), request, call.client); })},
+      {"GET", "/api/runs/{run}/review/case", nothing, gives,
+       [](auto& w, const auto& call) -> Text {
+         const auto building = parameter(call, "building");
+         return building ? w.review_case(run_of(call), *building) : Text(building.error());
+       }},
       {"GET", "/api/runs/{run}/export/{file}", nothing, bytes,
        [](auto& w, const auto& call) { return w.export_file(run_of(call), call.captured.at("file")); }},
       {"POST", "/api/runs/{run}/export", sends, gives,
@@ -187,7 +200,7 @@ auto matches(const Route& route, const std::vector<std::string_view>& words, Wor
 
 /// The HTTP status of a diagnostic code.
 auto status_of(std::string_view code) -> int {
-  static constexpr std::array<std::pair<std::string_view, int>, 36> known{{
+  static constexpr std::array<std::pair<std::string_view, int>, 37> known{{
       {"server-body", 400},        {"option-value", 400},      {"option-unknown", 400},
       {"file-missing", 400},       {"server-upload", 400},     {"server-token", 401},
       {"server-host", 403},        {"server-origin", 403},     {"server-path", 404},
@@ -200,6 +213,7 @@ auto status_of(std::string_view code) -> int {
       {"server-changed", 409},     {"server-damaged", 409},    {"server-archive", 400},
       {"server-no-textures", 404}, {"pipeline-nothing", 409},  {"terrain-no-ground", 409},
       {"terrain-extent", 409},     {"server-no-basemap", 409}, {"ingest-ground-tiles", 409},
+      {"review-file", 400},
   }};
   const auto at = std::ranges::find(known, code, &std::pair<std::string_view, int>::first);
   if (at != known.end()) return at->second;

@@ -361,6 +361,7 @@ auto serve(const Options& options, const base::Cancel& cancel,
   if (!project) return project.error();
   auto workspace = Workspace::open(std::move(*project), options.sample);
   if (workspace) (*workspace)->set_basemap(options.basemap);
+  if (workspace) (*workspace)->set_reviewer(options.reviewer);
   if (!workspace) return workspace.error();
   Web web(options, **workspace);
   const auto link = web.start();

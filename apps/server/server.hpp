@@ -25,6 +25,7 @@ struct Options {
   int port = 8642;                                    ///< 0: any free port
   std::filesystem::path sample;                       ///< folder with meshes and footprints; empty: none
   Basemap basemap;
+  std::string reviewer;                                 ///< who decides about models on the page; empty: unknown
   std::uint64_t upload_limit = std::uint64_t{4} << 30;  ///< bytes per uploaded file
 };
 

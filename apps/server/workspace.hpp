@@ -6,6 +6,7 @@
 //   workspace_edits.cpp    models are shown, previewed and edited
 //   workspace_exports.cpp  models are exported
 //   workspace_inspect.cpp  attributes, levels of detail, models of others, alignment
+//   workspace_review.cpp   what people decided about the models
 #pragma once
 
 #include <atomic>
@@ -117,6 +118,17 @@ class Workspace {
   /// What makes mesh and footprints match: a CRS, or an offset of the mesh. Reads the inputs as a whole.
   [[nodiscard]] auto alignment(const InputsRequest& request) const -> Text;
 
+  /// The decisions on the buildings of a run, and which of them have lapsed.
+  [[nodiscard]] auto review(const std::string& run) -> Text;
+  /// Those of the project, as its file has them.
+  [[nodiscard]] auto review_of_project() const -> Text;
+  [[nodiscard]] auto review_case(const std::string& run, const std::string& building) -> Text;
+  /// Fails with "edit-stale" where the building is not the one that was looked at any more.
+  [[nodiscard]] auto decide(const std::string& run, const ReviewRequest& request, const std::string& client) -> Text;
+  /// Adds the decisions of a file of another person.
+  [[nodiscard]] auto merge_review(const std::string& text, const std::string& client) -> Text;
+  void set_reviewer(std::string reviewer) { reviewer_ = std::move(reviewer); }
+
   [[nodiscard]] auto export_file(const std::string& run, const std::string& file) -> Text;
   [[nodiscard]] auto export_all(const std::string& run, const ExportRequest& request) -> Text;
 
@@ -164,6 +176,13 @@ class Workspace {
   [[nodiscard]] auto send_change(const std::string& run, const Changed& changed, const std::string& client)
       -> std::string;
 
+  // Decisions. `reviewed`: the city with those that hold as attributes.
+  [[nodiscard]] auto decisions() const -> std::shared_ptr<const Decisions>;
+  [[nodiscard]] auto reviewed(std::shared_ptr<const model::City> city, const Models& models) const
+      -> std::shared_ptr<const model::City>;
+  /// With review_mutex_ held.
+  [[nodiscard]] auto keep_decisions(Decisions now, const std::string& client) -> base::Result<void>;
+
   [[nodiscard]] auto files_json(const std::vector<KnownFile>& files) const -> Json;
   [[nodiscard]] auto project_json() const -> Json;
   void send_project();
@@ -181,6 +200,9 @@ class Workspace {
   std::shared_ptr<const Textures> textures_;                             // of the scene; null until they are asked for
   std::optional<base::Diagnostic> scene_failure_;
   mutable ChangedFiles changed_files_;
+  std::string reviewer_;     ///< set before anything is asked
+  std::mutex review_mutex_;  // of those who change the decisions
+  std::shared_ptr<const Decisions> decisions_ = std::make_shared<const Decisions>();  // guarded by mutex_
   std::mutex exports_mutex_;
   std::atomic<std::uint64_t> next_work_ = 1;
   Events events_;

@@ -31,7 +31,12 @@ auto Workspace::tile_of_models(const std::string& run, const std::string& name) 
 
 auto Workspace::search(const std::string& run, const std::string& words) -> Text {
   const auto open = models(run);
-  return open ? Text((*open)->search(words)) : Text(open.error());
+  if (!open) return open.error();
+  std::map<std::string, model::Attributes, std::less<>> more;
+  for (const auto& [building, decision] : *decisions())
+    if (const auto model_now = (*open)->model_now(building); model_now && model_now->model == decision.model)
+      more.emplace(building, attributes_of(decision));
+  return (*open)->search(words, more);
 }
 
 auto Workspace::section(const std::string& run, const PartName& part, std::size_t ring, std::size_t edge, double share)

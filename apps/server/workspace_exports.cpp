@@ -32,7 +32,7 @@ auto Workspace::export_file(const std::string& run, const std::string& file) -> 
     if (!scene) return base::error("server-no-scene", "the terrain is made from the mesh, which has not been read");
     return terrain_file(**city, *scene, (*open)->options(), file, work);
   }
-  return exported(**city, (*open)->options().write, file, work);
+  return exported(*reviewed(*city, **open), (*open)->options().write, file, work);
 }
 
 /// None for imported models.
@@ -60,7 +60,7 @@ auto Workspace::export_all(const std::string& run, const ExportRequest& request)
     return base::error("output-exists", "the folder is not empty; send \"overwrite\": true to replace its files",
                        folder.string());
   if (auto made = make_folder(folder); !made) return made.error();
-  const auto written = export_to(folder, **city, (*open)->options().write, *formats, *layers);
+  const auto written = export_to(folder, *reviewed(*city, **open), (*open)->options().write, *formats, *layers);
   if (!written) return written.error();
   return text_of({{"folder", folder.string()}, {"files", written->files}, {"warnings", json_of(written->warnings)}});
 }

@@ -38,10 +38,10 @@ auto Workspace::attributes(const std::string& run, const std::optional<std::stri
     auto around = (*open)->edited_around(*building, scene_now());
     if (!around) return around.error();
     around->buildings.resize(1);
-    return text_of(attributes_json(*around));
+    return text_of(attributes_json(*reviewed(std::make_shared<const model::City>(std::move(*around)), **open)));
   }
   const auto city = (*open)->edited(scene_now());
-  return city ? Text(text_of(attributes_json(**city))) : Text(city.error());
+  return city ? Text(text_of(attributes_json(*reviewed(*city, **open)))) : Text(city.error());
 }
 
 auto Workspace::level(const std::string& run, const std::string& lod) -> Text {

@@ -170,7 +170,7 @@ export class Checks {
     const used = new Set();
     // Names of CityGML have no prefix of ours.
     const standard = [...this.attributes].filter((name) => !/^\+?ms_/.test(name));
-    for (const file of ["mansard", "lab"].flatMap((folder) => this.find(folder, /\.[ch]pp$/)))
+    for (const file of ["mansard", "lab", "apps/server"].flatMap((folder) => this.find(folder, /\.[ch]pp$/)))
       for (const match of fs.readFileSync(path.join(this.root, file), "utf8").matchAll(/"(\+?[A-Za-z0-9_]+)"/g)) {
         if (!/^\+?ms_[a-z0-9_]+$/.test(match[1]) && !standard.includes(match[1])) continue;
         if (!file.endsWith("attribute_list.cpp")) used.add(match[1]);

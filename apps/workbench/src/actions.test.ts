@@ -329,6 +329,15 @@ describe("edits", () => {
     expect(state.selection.value).toEqual({ building: "a", part: "a-9", ring: 0, edge: 2 });
   });
 
+  it("take what was said of them along when they are undone", async () => {
+    state.run.value = { ...open(building("a")), history: history(1, "roof") };
+    answers["POST /api/runs/run-1/undo"] = () => ({ buildings: [building("a", { revision: 1 })], history: history(0, "roof") });
+    actions.warn("edit-dormers", "a dormer was removed; Undo brings it back");
+    actions.warn("another", "stays");
+    await actions.undo();
+    expect(state.messages.value.map((m) => m.code)).toEqual(["another"]);
+  });
+
   it("are undone one by one; a draft is discarded first, without a call of the server", async () => {
     open(building("a"));
     state.run.value = { ...state.run.value!, history: history(1, "x") };

@@ -306,6 +306,16 @@ export async function needTiles(id: string, tiles: readonly string[]) {
 let wantedTiles: readonly string[] = [];
 let loadingTiles = false;
 
+/** Loads the models around a building of a large run. */
+export async function needModelsOf(id: string, building: string) {
+  const open = state.run.value;
+  if (open?.id !== id || !open.large || open.buildings.has(building)) return;
+  const [tile] = tilesAround(open.large, building);
+  if (tile === undefined || open.large.loaded.has(tile)) return;
+  const answer = await attempt(client.modelTile(id, tile));
+  if (answer) addTile(id, tile, answer.buildings);
+}
+
 /** Adds the models of a tile; those of tiles that nobody looks at are forgotten when there are too many. */
 function addTile(id: string, tile: string, models: readonly api.Building[]) {
   const open = state.run.value;
@@ -531,8 +541,13 @@ export function take(run: string, answer: api.Applied) {
     opened.value = { ...opened.value, buildings, history: answer.history, ...(large && { large }) };
   }
   measureAgain(run);
+  if (state.run.value?.id === run) for (const listener of reviewListeners) listener(answer.buildings.map((b) => b.id));
   if (state.run.value?.id === run) state.selection.value = existing(state.run.value, state.selection.value);
 }
+
+/** Called with the buildings that changed, whose decisions may have lapsed; with null where decisions were made elsewhere. */
+export const onReview = (listener: (buildings: string[] | null) => void) => void reviewListeners.push(listener);
+const reviewListeners: ((buildings: string[] | null) => void)[] = [];
 
 /** The list of a large run with these buildings as they are now. */
 function withRows(large: Large, changed: readonly api.Building[]): Large {
@@ -558,7 +573,10 @@ async function step(which: "undo" | "redo") {
   const { edits, done } = open.history;
   if (which === "undo" ? done === 0 : done === edits.length) return;
   const answer = await attempt(client[which](open.id));
-  if (answer) take(open.id, answer);
+  if (!answer) return;
+  take(open.id, answer);
+  // What it said of the edit is not so any more.
+  state.messages.value = state.messages.value.filter((m) => m.code !== "edit-dormers");
 }
 
 /** Applies the edits of another run to this one, and says which buildings they do not fit any more. */
@@ -640,6 +658,8 @@ export function received(event: api.Event) {
     const gone = (open: state.OpenRun | null) => open && !event.project.runs.some((r) => r.id === state.runOf(open.id));
     if (gone(state.other.value)) state.other.value = null;
     if (gone(state.run.value)) closeRun();
+  } else if (event.type === "review") {
+    if (event.client !== client.id) for (const listener of reviewListeners) listener(null);
   } else if (event.type === "buildings" && event.client !== client.id) {
     const stale = state.draft.value?.changes.some((c) => event.buildings.some((b) => b.id === c.building));
     take(event.run, event);

@@ -16,6 +16,7 @@ import { RunPanel } from "./panels/run";
 import { Start, changeInputs, take } from "./panels/start";
 import { Steps } from "./panels/steps";
 import { TopBar } from "./panels/topbar";
+import { ReviewPanel } from "./review/panel";
 import * as state from "./state";
 import { View } from "./view/view";
 
@@ -23,6 +24,7 @@ const tabs: { tab: state.Tab; name: string }[] = [
   { tab: "edit", name: "Edit" },
   { tab: "run", name: "Run" },
   { tab: "buildings", name: "Buildings" },
+  { tab: "review", name: "Review" },
   { tab: "attributes", name: "Attributes" },
   { tab: "plots", name: "Plots" },
   { tab: "layers", name: "Layers" },
@@ -82,8 +84,8 @@ export function App() {
               </div>
             )}
           </main>
-          <Splitter />
           <aside aria-label="Panels">
+            <Splitter />
             <Tabs />
             <ReasonsStrip />
             <Panel />
@@ -135,6 +137,7 @@ function Panel() {
       {tab === "edit" && <EditPanel />}
       {tab === "run" && <RunPanel />}
       {tab === "buildings" && <BuildingsPanel />}
+      {tab === "review" && <ReviewPanel />}
       {tab === "attributes" && <AttributesPanel />}
       {tab === "plots" && <PlotsPanel />}
       {tab === "layers" && <LayersTab />}

@@ -77,7 +77,7 @@ export function largeOf(list: BuildingList): Large {
     id,
     block: list.blocks[i]!,
     outcome: list.outcomes[i]!,
-    reasons: [...new Set((list.reasons[id] ?? []).map(said))],
+    reasons: [...new Set((list.reasons[id] ?? []).map((r) => said(r)))],
     parts: shapes[i]!.length,
     rmse: list.errors[i] === null ? null : Math.sqrt(list.errors[i]!),
     volume: list.volumes[i]!,

@@ -33,8 +33,9 @@ export interface LoadedMap extends api.ErrorMap {
   cells: Float32Array; // rows from south to north; NaN where there is no value
 }
 
-export type Tab = "edit" | "run" | "buildings" | "attributes" | "plots" | "layers" | "compare";
-export type Flight = "home" | "top" | "selection";
+export type Tab = "edit" | "run" | "buildings" | "review" | "attributes" | "plots" | "layers" | "compare";
+/** case: to the selection, at once. */
+export type Flight = "home" | "top" | "selection" | "case";
 
 export const connected = signal(true);
 export const locked = signal(false); // the server runs, but refuses the token of this page
@@ -102,6 +103,9 @@ export const flight = signal<{ to: Flight; at: number } | null>(null);
 export const sceneRead = computed(
   () => scene.value !== null && !jobs.value.some((j) => j.kind === "read" && (j.state === "queued" || j.state === "running")),
 );
+
+/** Whether the error maps of a run can be had: those of an edited one are measured again, which needs the inputs. */
+export const hasMaps = (run: OpenRun | null) => run !== null && (run.history.done === 0 || sceneRead.value);
 
 /** The building to draw: its draft, if it has one. */
 export function shown(id: string): api.RaisedBuilding | undefined {

@@ -279,6 +279,70 @@ test("models of an earlier run are opened, edited and exported", { tag: "@firefo
   expect(exports.sort()).toContain("model.3dtiles");
 });
 
+test("typed values, the table of buildings and its search", async ({ clean: page, server, folder }) => {
+  await page.goto(server.link);
+  await page.getByLabel("Models that mansard wrote").fill(someModel(folder));
+  await page.getByRole("button", { name: "Open model" }).click();
+  await open(page, "street.city.json");
+  await pick(page, "middle");
+  const edits = () => state(page, (s) => s.run.value!.history.done);
+  const cap = page.getByRole("textbox", { name: "Cap, metres" });
+
+  await test.step("the value that is there is no edit, and Ctrl+Z takes a typed one back at once", async () => {
+    const before = await cap.inputValue();
+    await cap.fill(`${before}0`); // "9.000" as "9.0000"
+    await cap.press("Enter");
+    await cap.fill("7.5");
+    await cap.press("Enter");
+    await expect.poll(edits).toBe(1);
+    await expect(cap).toBeFocused();
+    await cap.press("Control+z");
+    await expect.poll(edits).toBe(0);
+    await expect(cap).toHaveValue(before);
+    await cap.press("Control+Shift+z");
+    await expect.poll(edits).toBe(1);
+  });
+
+  await test.step("hints are read to their ends", async () => {
+    await page.getByRole("button", { name: "Split", exact: true }).click();
+    const hint = page.locator(".edit-hint > span").first();
+    await expect(hint).toContainText("Enter");
+    expect(await hint.evaluate((e) => e.scrollWidth - e.clientWidth)).toBeLessThanOrEqual(0);
+    await page.keyboard.press("Escape");
+    expect(await faint(page), "also of a pressed button under the pointer").toEqual([]);
+  });
+
+  await test.step("heads are over their columns, and the grid has the selected row", async () => {
+    await page.getByRole("tab", { name: "Buildings" }).click();
+    await page.getByLabel("Filter buildings").fill("");
+    const right = async (of: Locator) => {
+      const box = (await of.boundingBox())!;
+      return box.x + box.width;
+    };
+    const cells = page.getByRole("row", { name: /^left/ }).getByRole("gridcell");
+    for (const [i, head] of (await page.getByRole("columnheader").all()).entries())
+      expect(await right(head), `column ${i}`).toBeCloseTo(await right(cells.nth(i)), 0);
+    const grid = page.getByRole("grid", { name: "Buildings" });
+    await grid.focus();
+    await page.keyboard.press("End");
+    await expect(page.getByRole("row", { selected: true })).toContainText("right");
+    const active = (await grid.getAttribute("aria-activedescendant"))!;
+    await expect(page.locator(`#${active}`)).toContainText("right");
+    expect(await page.getByRole("rowgroup").getAttribute("aria-activedescendant")).toBe(null);
+    await expect(page.getByRole("heading", { level: 1 })).toHaveText("mansard");
+  });
+
+  await test.step("columns are compared by name, and a name that nobody has is said", async () => {
+    const filter = page.getByLabel("Filter buildings");
+    await filter.fill("volume>1");
+    await expect(page.getByRole("row")).toHaveCount(4);
+    await filter.fill("volume<1");
+    await expect(page.getByText("No building matches the filter.")).toBeVisible();
+    await filter.fill("measuredHieght>1");
+    await expect(page.getByText(/No building has an attribute named “measuredhieght”/)).toBeVisible();
+  });
+});
+
 test("a part is split along a drawn line and merged again", async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "whole");
@@ -481,6 +545,11 @@ test("each run has its own marks, edits are carried over, and merging across bui
     expect(await pixels(page, mark)).toBeGreaterThan(20);
     await page.getByLabel("Compare with").selectOption({ label: "first (run-1)" });
     await expect.poll(() => state(page, (s) => s.other.value?.buildings.size ?? 0)).toBeGreaterThan(1);
+    await page.evaluate(() => {
+      const { state } = (window as unknown as Known["window"]).mansard;
+      const other = state.other.value!;
+      state.other.value = { ...other, buildings: new Map([...other.buildings].map(([id, b]) => [id, { ...b, reasons: [] }])) };
+    });
     await idle(page);
     expect(await pixels(page, mark, [0, 0.5])).toBeGreaterThan(20);
     expect(await pixels(page, mark, [0.5, 1])).toBe(0);
@@ -863,6 +932,118 @@ test("attributes are shown, searched, and colour the models", async ({ clean: pa
     expect((await canvas(page).screenshot()).equals(fine)).toBe(false);
     await picture(page, "lod12");
     await page.getByRole("tabpanel").getByLabel("Level of detail").selectOption("2.2");
+  });
+});
+
+test("buildings are reviewed with keys alone, the worst first", { tag: "@firefox" }, async ({ clean: page, server, folder }) => {
+  await server.stop();
+  await server.start("--reviewer", "Ann");
+  await openSample(page, server);
+  await reconstruct(page, "reviewed");
+  const all = await buildings(page);
+  await page.getByRole("button", { name: "Close the first steps" }).click();
+  await page.keyboard.press("Escape");
+  await page.evaluate(() => (document.activeElement as HTMLElement | null)?.blur());
+
+  await page.keyboard.press("v");
+  const panel = page.getByRole("region", { name: "Review", exact: true });
+  const count = panel.getByRole("status").first();
+  await expect(count).toHaveText(`0 done (0 right, 0 wrong), ${all.length} left`);
+  await expect(panel.getByText("You decide as Ann")).toBeVisible();
+  const at = () => state(page, (s) => s.selection.value?.building);
+  await expect.poll(at).toBeTruthy();
+  const first = (await at())!;
+  const worst = Math.min(...all.flatMap((b) => (b.confidence === null || !b.parts.length ? [] : [b.confidence])));
+  expect((await buildingOf(page, first)).confidence).toBe(worst);
+  await expect(panel.locator(".review-place")).toBeVisible();
+  await expect(panel.locator(".review-models, .review-case > p.quiet").first()).toBeVisible();
+  await idle(page);
+  await picture(page, "review");
+  expect(await faint(page)).toEqual([]);
+
+  await test.step("a note and a decision are kept, and the next building is there", async () => {
+    await page.keyboard.press("c");
+    await page.keyboard.type("wrong ridge"); // keys decide nothing in a field
+    await expect(count).toContainText("0 done");
+    await page.keyboard.press("Enter");
+    await page.keyboard.press("w");
+    await expect(count).toContainText("1 done (0 right, 1 wrong)");
+    expect(await at()).not.toBe(first);
+    await page.keyboard.press("b");
+    expect(await at()).toBe(first);
+    await expect(panel).toContainText(/Wrong by Ann, \d{4}-\d\d-\d\d/);
+    await expect(panel.getByRole("textbox", { name: "Note" })).toHaveValue("wrong ridge");
+    await page.reload();
+    await open(page, "reviewed");
+    await expect(count).toContainText("1 done (0 right, 1 wrong)");
+  });
+
+  await test.step("it is an attribute of exports and lapses with the model", async () => {
+    const attributes = async () => {
+      const table = await server.get<api.AttributeTable>(`/api/runs/run-1/attributes?building=${encodeURIComponent(first)}`);
+      return table.buildings[0]!.values;
+    };
+    expect(await attributes()).toMatchObject({ ms_review: "wrong", ms_review_note: "wrong ridge", ms_reviewer: "Ann" });
+    await page.keyboard.press("1"); // takes the best of the other models
+    await expect.poll(async () => (await buildingOf(page, first)).edited).toBe(true);
+    await expect(panel).toContainText("Lapsed: it was decided wrong by Ann");
+    await expect(count).toContainText("0 done (0 right, 0 wrong)");
+    await expect(count).toContainText("1 lapsed");
+    expect(await attributes()).not.toHaveProperty("ms_review");
+    await expect(panel.getByRole("button", { name: /As the run made it/ })).toBeVisible();
+    await page.keyboard.press("Control+z");
+    await expect(count).toContainText("1 done (0 right, 1 wrong)");
+    await page.keyboard.press("e");
+    await expect(page.getByRole("application", { name: /^Profile of edge/ })).toBeVisible();
+    await page.keyboard.press("v");
+    await expect(panel.getByRole("region", { name: "Building under review" })).toContainText(first);
+  });
+
+  await test.step("a person who knows the keys goes on at once", async () => {
+    const times = () => page.evaluate(() => (window as unknown as { mansard: { caseTimes: number[] } }).mansard.caseTimes);
+    const before = (await times()).length;
+    await page.keyboard.press("n");
+    for (let i = 0; i < 20; ++i) {
+      await page.waitForTimeout(700); // to look; what is next is loaded meanwhile
+      const drawn = (await times()).length;
+      await page.keyboard.press(i % 4 ? "r" : "d");
+      await expect.poll(async () => (await times()).length).toBeGreaterThan(drawn);
+    }
+    const told = (await times()).slice(before).sort((a, b) => a - b);
+    const report = `from a key to the image of the next building, ms: median ${told[told.length >> 1]!.toFixed(0)}, worst ${told.at(-1)!.toFixed(0)} of ${told.length}`;
+    console.log(report);
+    if (process.env.MANSARD_PICTURES) writeFileSync(join(process.env.MANSARD_PICTURES, "review.txt"), report + "\n");
+    await expect(count).toContainText("5 later");
+  });
+
+  await test.step("the decisions of another person are added", async () => {
+    const file = await saved(page, folder, () => page.getByRole("button", { name: "Save decisions" }).click());
+    const review = JSON.parse(readFileSync(file, "utf8")) as api.ReviewFile;
+    expect(review.decisions.length).toBe(21);
+    const theirs = review.decisions.filter((d) => d.building === first);
+    theirs[0] = { ...theirs[0]!, decision: "right", reviewer: "Bob", note: "", time: "2199-01-01T00:00:00Z" };
+    writeFileSync(file, JSON.stringify({ ...review, decisions: theirs }));
+    await page.getByLabel("File of decisions to merge").setInputFiles(file);
+    await expect(page.getByText(/Right by Bob is kept, wrong by Ann was earlier/)).toBeVisible();
+    const stored = JSON.parse(readFileSync(join(folder, "project/review.json"), "utf8")) as api.ReviewFile;
+    expect(stored.decisions.find((d) => d.building === first)?.reviewer).toBe("Bob");
+    expect(stored.decisions.length).toBe(21);
+    // The command line reads the same file.
+    expect(mansard("review", join(folder, "project"))).toContain("21 decisions: 16 right, 0 wrong, 5 later");
+  });
+
+  await test.step("small windows and a zoom of 200 %", async () => {
+    for (const [width, height] of [[1024, 640], [683, 384]] as const) {
+      await page.setViewportSize({ width, height });
+      await idle(page);
+      await picture(page, `small-${width}-review`);
+      for (const name of ["Right", "Wrong", "Later", "Back", "Next", "Edit"]) await panel.getByRole("button", { name, exact: true }).scrollIntoViewIfNeeded();
+      const cut = await page.evaluate(() =>
+        [...document.querySelectorAll<HTMLElement>(".review, .review *:not(.unseen)")].filter((e) => e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).overflowX !== "visible").map((e) => e.className || e.tagName),
+      );
+      expect(cut).toEqual([]);
+      expect(await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth)).toBeLessThanOrEqual(0);
+    }
   });
 });
 

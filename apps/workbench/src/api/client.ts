@@ -88,6 +88,13 @@ export class Client {
     this.json<api.CarriedOver>("POST", this.of(run, "/edits/carry-over"), { from });
   undo = (run: string) => this.json<api.Applied>("POST", this.of(run, "/undo"), {});
   redo = (run: string) => this.json<api.Applied>("POST", this.of(run, "/redo"), {});
+  review = (run: string) => this.json<api.Review>("GET", this.of(run, "/review"));
+  decide = (run: string, request: api.ReviewRequest) =>
+    this.json<{ decided: api.ReviewDecision | null }>("POST", this.of(run, "/review"), request);
+  reviewCase = (run: string, building: string) =>
+    this.json<api.ReviewCase>("GET", this.of(run, `/review/case?building=${escaped(building)}`));
+  reviewFile = () => this.json<api.ReviewFile>("GET", "/api/review");
+  mergeReview = (review: api.ReviewFile) => this.json<api.ReviewMerged>("POST", "/api/review/merge", review);
   exported = (run: string, file: string) => this.bytes(this.of(run, `/export/${escaped(file)}`));
   exportAll = (run: string, overwrite: boolean) =>
     this.json<{ folder: string; files: string[]; warnings: api.Diagnostic[] }>("POST", this.of(run, "/export"), { overwrite });

@@ -368,6 +368,65 @@ export interface History {
   done: number; // so many of the first edits are applied; the rest can be redone
 }
 
+/** What a person decided about a model. */
+export type Verdict = "right" | "wrong" | "later";
+export interface Decision {
+  building: string;
+  decision: Verdict;
+  note: string; // empty for none
+  reviewer: string; // empty where unknown
+  time: string; // ISO 8601, UTC
+}
+export interface ReviewDecision extends Decision {
+  lapsed: boolean; // the model is not the one that was looked at any more
+}
+export interface Review {
+  reviewer: string; // who decides on this server; empty where unknown
+  decisions: ReviewDecision[];
+}
+export interface FiledDecision extends Decision {
+  model: string; // SHA-256 of the plans that were looked at
+}
+/** The decisions of a project, as its file review.json has them. */
+export interface ReviewFile {
+  type: "mansard-review";
+  version: number;
+  decisions: FiledDecision[];
+}
+export interface ReviewConflict {
+  kept: Decision;
+  dropped: Decision;
+}
+export interface ReviewMerged {
+  added: number; // decisions that the project did not have
+  replaced: number; // decisions of the project that a later one replaced
+  conflicts: ReviewConflict[]; // buildings on which the two disagree
+}
+export interface ReviewRequest {
+  building: string;
+  revision: number; // of the building that was looked at
+  decision: Verdict | null; // null: the decision is taken back
+  note?: string;
+}
+export interface ReviewPlace {
+  at: [number, number, number]; // on the scan, or on the model where the scan does not cover it; local
+  what: "roof" | "inside" | "outside" | "unseen"; // roof: away from walls; inside, outside: at the outline; unseen: not covered by the scan
+  difference: number | null; // m; model − scan, on average over a square of at most 1 m; null where the scan does not cover it
+}
+export interface ReviewAlternative {
+  what: string; // in words: "gable roof"
+  mse: number | null; // m², measured as that of the building
+  roof_faces: number;
+  parts: NamedPlan[];
+}
+/** What a person who reviews a building is shown beside it. */
+export interface ReviewCase {
+  building: string;
+  revision: number; // of the building that all of this is about
+  place: ReviewPlace | null; // where to look first, by the main reason for doubt: mostly where scan and model differ most; null without a scan
+  alternatives: ReviewAlternative[]; // the one with the lowest error first; at most three
+}
+
 export interface Job {
   id: string;
   kind: "read" | "run" | "textures";
@@ -384,6 +443,7 @@ export type Event =
   | { type: "job"; job: Job }
   | { type: "project"; project: Project } // inputs, runs or their states changed
   | { type: "buildings"; run: string; client: string; buildings: Building[]; history: History } // an edit, undo or redo
+  | { type: "review"; client: string } // decisions were made, taken back or merged
   | { type: "ping" };
 
 /** The body of every answer with an HTTP status of at least 400. */

@@ -1,4 +1,5 @@
 import { useSignal } from "@preact/signals";
+import { redo, undo } from "../actions";
 import { parsed, shownNumber } from "./numbers";
 
 interface NumberFieldProps {
@@ -29,10 +30,15 @@ export function NumberField({ label, unit, value, onValue, digits = 3, disabled,
       return;
     }
     typed.value = null;
-    if (number !== value) onValue(number);
+    // A number that is shown as the present value is the present value: nobody typed the digits that are not shown.
+    if (value === null || shownNumber(number, digits, 2) !== shown) onValue(number);
   };
   const key = (event: KeyboardEvent) => {
-    if (event.key === "Enter") take();
+    // Nothing is typed that the field itself could take back.
+    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z" && (typed.value ?? shown) === shown) {
+      event.preventDefault();
+      void (event.shiftKey ? redo() : undo());
+    } else if (event.key === "Enter") take();
     else if (event.key === "Escape" && typed.value !== null) {
       typed.value = null;
       event.stopPropagation();

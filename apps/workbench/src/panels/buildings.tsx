@@ -6,7 +6,7 @@ import { Refused } from "../api/client";
 import * as state from "../state";
 import { searchedOf } from "./attribute_text";
 import { SearchField } from "./search_field";
-import { type Column, type Order, type Row, filtered, rowOf, sorted, visibleRows } from "./table";
+import { type Column, type Order, type Row, columnsOf, filtered, idsFirst, rowOf, sorted, unknownNames, visibleRows } from "./table";
 import { fixed, grouped } from "./words";
 
 const filter = signal("");
@@ -18,8 +18,9 @@ const inOrder = computed(() => sorted(all.value, order.value));
 const found = signal<{ run: string; words: string; ids: ReadonlySet<string> } | null>(null);
 const rows = computed((): readonly Row[] => {
   const answer = found.value;
-  if (answer && state.run.value?.large && answer.run === state.run.value.id && answer.words === filter.value)
-    return inOrder.value.filter((r) => answer.ids.has(r.id));
+  const { columns, rest } = columnsOf(filter.value);
+  if (answer && state.run.value?.large && answer.run === state.run.value.id && rest && answer.words === rest)
+    return idsFirst(filtered(inOrder.value.filter((r) => answer.ids.has(r.id)), columns), rest);
   return filtered(inOrder.value, filter.value, searched.value);
 });
 const runId = computed(() => state.run.value?.id);
@@ -33,10 +34,12 @@ effect(() => {
     if (!state.outdatedAttributes.value.has(run)) void needAttributes(run);
     return;
   }
+  const { rest } = columnsOf(words);
+  if (!rest) return;
   const stop = new AbortController();
   const asked = setTimeout(() => {
-    client.search(run, words, stop.signal).then(
-      ({ ids }) => (found.value = { run, words, ids: new Set(ids) }),
+    client.search(run, rest, stop.signal).then(
+      ({ ids }) => (found.value = { run, words: rest, ids: new Set(ids) }),
       (e: unknown) => {
         if (!(e instanceof Refused) && !stop.signal.aborted) throw e;
       },
@@ -47,11 +50,18 @@ effect(() => {
     stop.abort();
   };
 });
+/** Names in comparisons that no building has. */
+const unknown = computed(() => {
+  const table = state.attributes.value.get(state.run.value?.id ?? "");
+  if (!table || isLarge.value) return null;
+  return unknownNames(filter.value, table.attributes.map((a) => a.name));
+});
 effect(() => {
   state.order.value = rows.value.map((r) => r.id);
 });
 
 const rowHeight = 26;
+const headHeight = 30;
 const columns: { column: Column; name: string; title: string; number?: boolean }[] = [
   { column: "id", name: "Building", title: "Id of the footprint" },
   { column: "block", name: "Block", title: "Block of buildings that touch" },
@@ -92,8 +102,8 @@ export function BuildingsPanel() {
     if (!element || at < 0) return;
     const top = at * rowHeight;
     if (top < element.scrollTop) element.scrollTop = top;
-    else if (top + 2 * rowHeight > element.scrollTop + element.clientHeight) {
-      element.scrollTop = top + 2 * rowHeight - element.clientHeight;
+    else if (top + 2 * rowHeight > element.scrollTop + element.clientHeight - headHeight) {
+      element.scrollTop = top + 2 * rowHeight - element.clientHeight + headHeight;
     }
     // Not when the order changes: sortBy shows the first rows then.
   }, [selected, filter.value, runId.value]);
@@ -115,6 +125,7 @@ export function BuildingsPanel() {
       PageUp: at - page,
     };
     const next = { ...steps, Home: 0, End: list.length - 1 }[e.key];
+    if (e.target !== e.currentTarget) return; // of a button in the head
     if (e.key === "Enter") return go(list[at]);
     if (next === undefined || e.ctrlKey || e.metaKey) return;
     e.preventDefault();
@@ -135,7 +146,22 @@ export function BuildingsPanel() {
             : `${grouped(list.length)} of ${grouped(all.value.length)}`}
         </span>
       </div>
-      <div class="table" role="grid" aria-label="Buildings" aria-rowcount={list.length + 1}>
+      {unknown.value && (
+        <p class="quiet" role="status">
+          {unknown.value}
+        </p>
+      )}
+      <div
+        class="table"
+        ref={box}
+        tabIndex={0}
+        role="grid"
+        aria-label="Buildings"
+        aria-rowcount={list.length + 1}
+        aria-activedescendant={at >= from && at < to ? `building-${at}` : undefined}
+        onKeyDown={keys}
+        onScroll={(e) => setWindow({ top: e.currentTarget.scrollTop, height: e.currentTarget.clientHeight })}
+      >
         <div class="table-row heads" role="row">
           {columns.map(({ column, name, title, number }) => {
             const by = order.value.column === column;
@@ -158,15 +184,7 @@ export function BuildingsPanel() {
             );
           })}
         </div>
-        <div
-          class="table-body"
-          ref={box}
-          tabIndex={0}
-          role="rowgroup"
-          aria-activedescendant={at >= 0 ? `building-${at}` : undefined}
-          onKeyDown={keys}
-          onScroll={(e) => setWindow({ top: e.currentTarget.scrollTop, height: e.currentTarget.clientHeight })}
-        >
+        <div class="table-body" role="rowgroup">
           <div style={{ height: `${list.length * rowHeight}px` }}>
             <div style={{ transform: `translateY(${from * rowHeight}px)` }}>
               {list.slice(from, to).map((row, i) => (

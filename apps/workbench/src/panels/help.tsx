@@ -1,6 +1,7 @@
 // The keys that work everywhere, and the sheet that lists them.
 import { useEffect, useRef } from "preact/hooks";
 import * as actions from "../actions";
+import { reviewKeys, reviewPressed } from "../review/keys";
 import * as state from "../state";
 import { align, aligning, takeBack } from "../view/align";
 import { measure, measuring, removePoint } from "../view/measure";
@@ -44,7 +45,7 @@ export function HelpSheet() {
         aria-label={state.helpPage.value === "keys" ? "Keyboard" : "Manual"}
         onClick={(e) => e.stopPropagation()}
       >
-        <header>
+        <div class="sheet-head">
           <div class="help-pages">
             {(["keys", "manual"] as const).map((page) => (
               <button
@@ -67,14 +68,14 @@ export function HelpSheet() {
           >
             <Icon name="close" />
           </button>
-        </header>
+        </div>
         {state.helpPage.value === "manual" && <Manual />}
-        {state.helpPage.value === "keys" && [keys, pointer].map((rows, i) => (
-          <dl key={i}>
+        {state.helpPage.value === "keys" && [keys, pointer, reviewKeys].map((rows, i) => (
+          <dl key={i} aria-label={["Keys", "Pointer", "Keys of the panel Review"][i]}>
             {rows.map(([what, does]) => (
               <>
                 <dt>
-                  {i === 0
+                  {i !== 1
                     ? what
                         .split(" ")
                         .filter(Boolean)
@@ -110,6 +111,10 @@ export function pressed(e: KeyboardEvent) {
     return;
   }
   if (command || e.altKey || typing(e.target)) return;
+  if (!state.keyboardHelp.value && !state.pictureOpen.value && reviewPressed(e.key, e.timeStamp)) {
+    e.preventDefault();
+    return;
+  }
   const acts: Record<string, () => void> = {
     f: () => actions.fly("selection"),
     h: () => actions.fly("home"),
@@ -121,6 +126,7 @@ export function pressed(e: KeyboardEvent) {
       measure(measuring.value ? null : "distance");
     },
     p: () => (state.pictureOpen.value = !state.pictureOpen.value),
+    v: () => (state.tab.value = "review"),
     "/": () => {
       state.tab.value = "buildings";
       requestAnimationFrame(() => document.querySelector<HTMLElement>("[aria-label='Filter buildings']")?.focus());

@@ -13,6 +13,10 @@ const sections: [title: string, text: string][] = [
     "The list of buildings finds ids, blocks, outcomes and attributes: “slanted”, “measuredHeight>12”, “ms_edited=yes”. A click selects a building and moves the camera to it. The panel Attributes has all attributes of the selected building with units and meanings.",
   ],
   [
+    "Review",
+    "The panel Review goes through the buildings, the worst first: the scan beside the model, the reason for doubt, a mark where scan and model differ most, and other models. r, w and d decide: right, wrong, later. Decisions are kept in the project and written into exports as ms_review; one lapses when its building changes.",
+  ],
+  [
     "Colours",
     "Layers › Colour by colours the models by any attribute, the error or the outcome. Numbers have a scale that looks nearly the same with any colour vision; categories have different colours, the rarest share one. Level of detail draws the models at LoD 1.2, 1.3 or 2.0. Models of others shows CityJSON or OBJ of another program beside those of the run.",
   ],

@@ -3,6 +3,7 @@ import { computed, signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { needErrorMaps } from "../actions";
 import * as state from "../state";
+import { rowOf } from "./table";
 import { type Cluster, clusters, edgeProfiles, histogram, ticks } from "./plots";
 import { count, fixed, grouped, seconds, signed } from "./words";
 
@@ -34,9 +35,10 @@ const errors = computed(() => {
 
 export function PlotsPanel() {
   const run = state.run.value;
+  const measured = state.hasMaps(run);
   useEffect(() => {
-    if (run) void needErrorMaps(run.id);
-  }, [run?.id]);
+    if (run && measured) void needErrorMaps(run.id);
+  }, [run?.id, measured]);
   if (!run) return <p class="quiet pad">No run is open.</p>;
   return (
     <div class="panel">
@@ -203,13 +205,16 @@ function Errors() {
 
 function Totals() {
   const parts = buildings.value.flatMap((b) => b.parts);
+  // Of a large run the list has all buildings; faces are known of those that are loaded.
+  const large = state.run.value?.large;
+  const rows = large?.rows.filter((r) => !within.value || r.block === within.value) ?? buildings.value.map(rowOf);
   const summary = state.runSummary(state.run.value?.id);
   const outcomes = new Map<string, number>();
-  for (const b of buildings.value) outcomes.set(b.outcome, (outcomes.get(b.outcome) ?? 0) + 1);
+  for (const b of rows) outcomes.set(b.outcome, (outcomes.get(b.outcome) ?? 0) + 1);
   return (
     <dl class="numbers">
       <dt>Buildings</dt>
-      <dd>{grouped(buildings.value.length)}</dd>
+      <dd>{grouped(rows.length)}</dd>
       {[...outcomes].map(([outcome, n]) => (
         <>
           <dt class="sub">{outcome}</dt>
@@ -217,13 +222,13 @@ function Totals() {
         </>
       ))}
       <dt>Edited</dt>
-      <dd>{grouped(buildings.value.filter((b) => b.edited).length)}</dd>
+      <dd>{grouped(rows.filter((r) => r.edited).length)}</dd>
       <dt>Parts</dt>
-      <dd>{grouped(parts.length)}</dd>
-      <dt>Faces</dt>
+      <dd>{grouped(rows.reduce((sum, r) => sum + r.parts, 0))}</dd>
+      <dt>{large ? `Faces of the ${grouped(buildings.value.length)} loaded` : "Faces"}</dt>
       <dd>{grouped(parts.reduce((sum, p) => sum + (p.geometry?.faces.length ?? 0), 0))}</dd>
       <dt>Volume</dt>
-      <dd>{grouped(parts.reduce((sum, p) => sum + p.volume, 0))} m³</dd>
+      <dd>{grouped(rows.reduce((sum, r) => sum + r.volume, 0))} m³</dd>
       {!within.value &&
         summary?.times.stages.map((t) => (
           <>

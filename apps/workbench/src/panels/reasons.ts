@@ -5,6 +5,6 @@ import { said } from "./words";
 /** As sentences, without repetitions: those of the run first, then those of the present models. */
 export const reasonsOf = (b: Building): string[] => [
   ...new Set(
-    [...b.reasons, ...b.diagnostics, ...b.parts.flatMap((p) => p.diagnostics)].map(said),
+    [...b.reasons, ...b.diagnostics, ...b.parts.flatMap((p) => p.diagnostics)].map((d) => said(d)),
   ),
 ];

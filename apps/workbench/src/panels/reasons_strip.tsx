@@ -4,7 +4,7 @@ import { reasonsOf } from "./reasons";
 
 export function ReasonsStrip() {
   const building = state.selectedBuilding.value;
-  if (!building) return null;
+  if (!building || state.tab.value === "review") return null; // which has them itself
   const reasons = reasonsOf(building);
   if (building.outcome === "full" && reasons.length === 0) return null;
   return (

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { building } from "../view/fixtures";
-import { filtered, sorted, visibleRows, rowOf } from "./table";
+import { columnsOf, filtered, sorted, unknownNames, visibleRows, rowOf } from "./table";
 
 const rows = [
   rowOf(building("b-10", { mse: 0.25, edited: true, confidence: null })),
@@ -34,6 +34,27 @@ describe("the table of buildings", () => {
     expect(ids("edited", "id")).toEqual(["b-10"]);
     expect(ids("block-7 full", "id")).toEqual(["b-2"]);
     expect(ids("block-7 fallback", "id")).toEqual([]);
+  });
+
+  it("shows a building before others of the block that is named after it", () => {
+    const block = ["b-1", "b-2", "b-3"].map((id) => rowOf(building(id, { block: "block-b-2" })));
+    const found = (filter: string) => filtered(sorted(block, { column: "id", down: false }), filter).map((r) => r.id);
+    expect(found("b-2")).toEqual(["b-2", "b-1", "b-3"]);
+    expect(found("block-b-2")).toEqual(["b-1", "b-2", "b-3"]);
+    expect(found("B-2 full")).toEqual(["b-1", "b-2", "b-3"]);
+  });
+
+  it("compares its own columns by name", () => {
+    expect(ids("rmse>0.3", "id")).toEqual(["b-10"]);
+    expect(ids("sure<50", "id")).toEqual(["b-9"]);
+    expect(ids("volume=270 rmse<0.3", "id")).toEqual(["b-2"]);
+    expect(ids("parts>x", "id")).toEqual([]);
+    expect(columnsOf("canal rmse>0.3 height>4 Parts=2")).toEqual({ columns: "rmse>0.3 Parts=2", rest: "canal height>4" });
+  });
+
+  it("says which names in comparisons nobody has", () => {
+    expect(unknownNames("rmse>0.3 height>4 canal", ["measuredHeight"])).toBe(null);
+    expect(unknownNames("hieght>4 toString=1", ["measuredHeight"])).toContain("“hieght” or “tostring”");
   });
 
   it("renders the visible rows and a few more", () => {

@@ -1,6 +1,6 @@
 // The table of buildings: columns, order, and the visible rows.
 import type { Building } from "../api/types";
-import { type Searched, hasValue, termOf } from "./attribute_text";
+import { type Searched, type Term, hasValue, termOf } from "./attribute_text";
 import { reasonsOf } from "./reasons";
 
 export type Column = "id" | "block" | "outcome" | "confidence" | "rmse" | "volume" | "edited";
@@ -67,8 +67,57 @@ export function filtered(
   const text = (r: Row) =>
     `${r.id} ${r.block} ${r.outcome}${r.edited ? " edited" : ""} ${attributes.get(r.id)?.text ?? ""}`.toLowerCase();
   const matches = (r: Row) =>
-    words.every((w) => ("text" in w ? text(r).includes(w.text) : hasValue(attributes.get(r.id), w)));
-  return rows.filter(matches);
+    words.every((w) => ("text" in w ? text(r).includes(w.text) : (ofColumn(r, w) ?? hasValue(attributes.get(r.id), w))));
+  return idsFirst(rows.filter(matches), filter);
+}
+
+/** What the table itself has of a building, by the names of its columns and by those that people try. */
+const columnsByName: Record<string, (r: Row) => number | null> = {
+  rmse: (r) => r.rmse,
+  sure: (r) => (r.confidence === null ? null : 100 * r.confidence),
+  volume: (r) => r.volume,
+  "m³": (r) => r.volume,
+  parts: (r) => r.parts,
+};
+/** Whether a column holds the comparison; undefined if it is about none. */
+function ofColumn(row: Row, term: Exclude<Term, { text: string }>): boolean | undefined {
+  const column = Object.hasOwn(columnsByName, term.name) ? columnsByName[term.name] : undefined;
+  if (!column) return undefined;
+  const [value, wanted] = [column(row), Number(term.value)];
+  if (value === null || Number.isNaN(wanted)) return false;
+  return term.is === "<" ? value < wanted : term.is === ">" ? value > wanted : value === wanted;
+}
+
+/** The filter in two: comparisons of columns, and what the server searches of a large run. */
+export function columnsOf(filter: string): { columns: string; rest: string } {
+  const [columns, rest]: [string[], string[]] = [[], []];
+  for (const word of filter.split(/\s+/).filter(Boolean)) {
+    const term = termOf(word);
+    ("name" in term && Object.hasOwn(columnsByName, term.name) ? columns : rest).push(word);
+  }
+  return { columns: columns.join(" "), rest: rest.join(" ") };
+}
+
+/** Those whose ids have every word before those that match otherwise: an id is also the name of a block, whose other buildings
+ *  would hide it. */
+export function idsFirst(rows: readonly Row[], filter: string): readonly Row[] {
+  const words = filter.toLowerCase().split(/\s+/).filter(Boolean);
+  const own = (r: Row) => words.every((w) => r.id.toLowerCase().includes(w));
+  const first = rows.filter(own);
+  return first.length === 0 || first.length === rows.length ? rows : [...first, ...rows.filter((r) => !own(r))];
+}
+
+/** A sentence on names in comparisons that are neither attributes nor columns; null if there are none. */
+export function unknownNames(filter: string, attributes: readonly string[]): string | null {
+  const names = attributes.map((a) => a.toLowerCase());
+  const unknown = filter
+    .split(/\s+/)
+    .filter(Boolean)
+    .map(termOf)
+    .flatMap((t) => ("text" in t || Object.hasOwn(columnsByName, t.name) || names.some((n) => n.endsWith(t.name)) ? [] : [t.name]));
+  if (!unknown.length) return null;
+  const known = Object.keys(columnsByName).slice(0, 3).join(", ");
+  return `No building has an attribute named ${unknown.map((n) => `“${n}”`).join(" or ")}; the panel Attributes lists them. ${known} and parts compare columns.`;
 }
 
 /** The rows to render for a window of `height` pixels that is scrolled down by `top`, with `spare` rows on each side. */

@@ -17,9 +17,9 @@ export function TopBar() {
   const edited = run !== null && !run.large && (run.history.done > 0 || state.isBefore(state.other.value?.id));
   return (
     <header class="topbar">
-      <span class="brand">
+      <h1 class="brand">
         <img src="./icon.svg" alt="" width="20" height="20" /> mansard
-      </span>
+      </h1>
       <span class="project" title={project?.folder}>
         {project?.name}
       </span>

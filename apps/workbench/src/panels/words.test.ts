@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { brief, bytes, count, fullNameOf, fixed, grouped, inPage, rmse, seconds, sentence, signed } from "./words";
+import { brief, bytes, count, fullNameOf, fixed, grouped, inPage, rmse, seconds, sentence, signed, said } from "./words";
 
 it("numbers are formatted", () => {
   expect(grouped(1234567)).toBe("1,234,567");
@@ -23,6 +23,11 @@ it("options are named as in the page, not as on a command line", () => {
 
 it("mean squares become roots, and nothing stays nothing", () => {
   expect([rmse(0.04), rmse(null), rmse(undefined)]).toEqual([0.2, null, null]);
+});
+
+it("a message that the page has a remedy for names its button", () => {
+  expect(said({ message: "mesh and footprints do not overlap", code: "ingest-no-overlap" })).toContain("“Find an offset”");
+  expect(said({ message: "no", code: "toString" })).toBe("No");
 });
 
 it("long names are shortened, and runs named without repetition", () => {

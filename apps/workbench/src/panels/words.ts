@@ -41,8 +41,13 @@ export const inPage = (text: string) =>
   );
 /** With a capital first letter. */
 export const sentence = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
+/** What the page itself has for what a message is about. */
+const here: Record<string, string> = {
+  "ingest-no-overlap": "“Find an offset” in the form of the inputs looks for a CRS or an offset with which they do.",
+};
 /** The message of a diagnostic as the page shows it. */
-export const said = ({ message }: { message: string }) => sentence(inPage(message));
+export const said = ({ message, code }: { message: string; code?: string }) =>
+  sentence(inPage(message)) + (code !== undefined && Object.hasOwn(here, code) ? `. ${here[code]}` : "");
 /** The name of a run: its label, or its id if it has none. */
 export const nameOf = (run: { id: string; label: string }) => run.label || run.id;
 /** The name of a run, followed by its id if they differ. */

@@ -151,3 +151,6 @@ export const lod = signal<Lod>("2.2");
 /** Share of the width at which the view is divided: the scan or the run on its left, the models or the other run on its
  *  right. Null: it is not. */
 export const divided = signal<number | null>(null);
+/** Whether a review shows the scan beside the model. */
+export const besideWanted = signal(kept("local", "beside", true));
+effect(() => keep("local", "beside", besideWanted.value));

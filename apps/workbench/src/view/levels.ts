@@ -14,6 +14,7 @@ export interface Choice {
 /** Maximum error of level n in metres: the size of the cells in which vertices were merged. */
 export const errorOf = (level: number) => (level === 0 ? 0 : 0.25 * 2 ** (level - 1));
 
+const usualTolerance = 1.5; // pixels
 const [fewest, most] = [300_000, 3_000_000];
 
 /** Maximum number of triangles per image: decreased when images take long, increased when they do not. */
@@ -48,7 +49,7 @@ export class Levels {
   }
 
   /** Replaces the tile with the largest visible error by its children, as long as they are loaded and fit the budget. */
-  choose(eye: Eye, has: (id: string) => boolean, budget: number, tolerance = 1.5): Choice {
+  choose(eye: Eye, has: (id: string) => boolean, budget: number, tolerance = usualTolerance): Choice {
     const wanted: { tile: TileInfo; looks: number }[] = [];
     const draw: TileInfo[] = [];
     const visible = this.roots.filter(eye.sees).map((tile) => ({ tile, looks: this.looks(tile, eye) }));

@@ -81,10 +81,11 @@ export class Tiles {
     this.arrived();
   }
 
-  /** To be called before each image. */
-  update(eye: Eye) {
+  /** To be called before each image. `ahead`: where the camera will be next; what is needed there is loaded last. `tolerance`:
+   *  error in pixels of what is drawn. */
+  update(eye: Eye, ahead: readonly Eye[] = [], tolerance?: number) {
     ++this.round;
-    const { draw, fetch } = this.levels.choose(eye, (id) => this.loaded.has(id), this.budget.triangles);
+    const { draw, fetch } = this.levels.choose(eye, (id) => this.loaded.has(id), this.budget.triangles, tolerance);
     for (const { mesh, pictured } of this.loaded.values()) {
       mesh.visible = false;
       if (pictured) pictured.visible = false;
@@ -95,7 +96,8 @@ export class Tiles {
       entry.used = this.round;
     }
     if (this.textured) this.paint(draw);
-    this.wanted = fetch.filter((t) => !this.failed.has(t.id));
+    const later = ahead.flatMap((next) => this.levels.choose(next, (id) => this.loaded.has(id), this.budget.triangles).fetch);
+    this.wanted = [...fetch, ...later].filter((t) => !this.failed.has(t.id));
     this.evict();
     this.fetchMore();
   }

@@ -14,7 +14,10 @@ import { nameOf } from "../panels/words";
 import { viewer } from "./current";
 import type { RawClimbs } from "./highlight";
 import { Attribution, Furniture } from "./furniture";
-import { choices, choose, divided, errorLimit, lod, section } from "./layers";
+import { caseDrawn } from "../review/pace";
+import { current, decisions, queue, shownCase } from "../review/review";
+import { isMarked, nextOpen } from "../review/queue";
+import { type Choices, besideWanted, choices, choose, divided, errorLimit, lod, section } from "./layers";
 import { LayersPopover } from "./layers_panel";
 import { Legend } from "./legend";
 import { linkedPose } from "./link";
@@ -75,6 +78,11 @@ const drawnBuildings = computed((): Map<string, api.Building> | null => {
   });
   return new Map([...run.buildings].map(([id, b]) => [id, at(b)]));
 });
+
+/** Two panes: the scan on the left, the models on the right. */
+const beside = computed(
+  () => state.tab.value === "review" && besideWanted.value && state.tiles.value !== null && state.run.value !== null && !state.other.value,
+);
 
 function clicked(
   hit: Hit | null,
@@ -213,6 +221,19 @@ function connect(to: Viewer): () => void {
     effect(() => to.setPairs(aligning.value?.pairs ?? [], aligning.value?.scan ?? null)),
     effect(() => to.setDark(dark.value)),
     effect(() => to.setDivided(divided.value)),
+    effect(() => to.setBeside(beside.value)),
+    effect(() => {
+      const place = state.tab.value === "review" ? shownCase.value?.place : null;
+      to.setPin(place && isMarked(place) ? place.at : null);
+    }),
+    effect(() => {
+      const id = state.tab.value === "review" ? current.value : null;
+      to.setCase(id === null ? null : (state.run.value?.buildings.get(id) ?? null));
+    }),
+    effect(() => {
+      const at = state.selection.value?.building;
+      to.setNext(state.tab.value === "review" && at !== undefined ? nextOpen(queue.value, decisions.value, at, 2) : []);
+    }),
     effect(() => to.setRun(1, state.other.value?.buildings ?? null)),
     ...([0, 1] as const).flatMap((which) => {
       const id = () => (which ? state.other : state.run).value?.id;
@@ -224,16 +245,21 @@ function connect(to: Viewer): () => void {
         }),
         effect(() => {
           const run = id();
-          if (run && !state.isBefore(run) && choices.value.error.shown && !state.outdatedMaps.value.has(run)) void actions.needErrorMaps(run);
+          if (run && !state.isBefore(run) && choices.value.error.shown && !state.outdatedMaps.value.has(run) && state.hasMaps((which ? state.other : state.run).value)) void actions.needErrorMaps(run);
         }),
         effect(() => to.setSegmentation(which, state.segmentations.value.get(id() ?? "") ?? null)),
         effect(() => to.setErrorMaps(which, state.errorMaps.value.get(id() ?? "") ?? null)),
       ];
     }),
-    effect(() => to.setChoices(choices.value)),
+    effect(() => to.setChoices(state.tab.value === "review" ? withoutMarks(choices.value) : choices.value)),
     effect(() => to.setErrorLimit(errorLimit.value)),
     effect(() => to.setSection(section.value)),
-    effect(() => to.setSelection(state.selection.value, state.also.value)),
+    effect(() => {
+      // All parts of a building under review.
+      const id = state.tab.value === "review" ? current.value : null;
+      const parts = id === null ? [] : (state.run.value?.buildings.get(id)?.parts ?? []);
+      to.setSelection(state.selection.value, [...state.also.value, ...parts.map((p) => ({ building: id!, part: p.id }))]);
+    }),
     effect(() => to.setHover(state.hovered.value?.right ? null : state.hovered.value)),
     effect(() => {
       void state.scene.value;
@@ -245,13 +271,19 @@ function connect(to: Viewer): () => void {
       asked = request.at;
       if (request.to === "home") to.home();
       else if (request.to === "top") to.top();
-      else if (state.selection.peek()) to.flyTo(state.selection.peek()!.building);
+      else if (state.selection.peek()) to.flyTo(state.selection.peek()!.building, request.to === "case");
     }),
     watchRaw(to),
   ];
   return () => stops.forEach((stop) => stop());
 }
 const none: ReadonlySet<string> = new Set();
+/** Marks and profiles hide what a review is about. */
+const withoutMarks = (all: Choices): Choices => ({
+  ...all,
+  diagnostics: { ...all.diagnostics, shown: false },
+  clean: { ...all.clean, shown: false },
+});
 
 export function View() {
   const box = useRef<HTMLDivElement>(null);
@@ -273,6 +305,7 @@ export function View() {
           point: (place) => (state.pointer.value = place),
           drawn: (azimuth, metresPerPixel) => {
             measureDrawn();
+            caseDrawn();
             const was = state.compass.peek();
             if (was?.azimuth !== azimuth || was.metresPerPixel !== metresPerPixel)
               state.compass.value = { azimuth, metresPerPixel };
@@ -386,6 +419,13 @@ function Coordinates() {
 
 /** The names of the left and the right run. */
 function Sides() {
+  if (beside.value)
+    return (
+      <div class="sides" aria-hidden="true">
+        <span>scan</span>
+        <span>model</span>
+      </div>
+    );
   if (!state.other.value) return null;
   const name = (id: string) => {
     const run = state.runSummary(id);

@@ -12,6 +12,7 @@ import { Far } from "./far";
 import { type Box, boxOf, emptyBox, grow, isEmpty } from "./geometry";
 import { Highlight, type RawClimbs } from "./highlight";
 import type { Choices } from "./layers";
+import type { Eye } from "./levels";
 import { Cap, capNearer, Marks, Segments, Sheet, WideLines, flat } from "./lines";
 import { colours, modelLook } from "./materials";
 import { type Large, boxOfShapes, tilesNear } from "../large";
@@ -60,8 +61,11 @@ const followSeconds = 0.055; // delay of the camera behind the pointer
 const flightSeconds = 0.6;
 const background = { light: 0xf6f6f3, dark: 0x1b1e23 };
 const nearCorner = 14; // pixels between a click and the corner of a footprint
+const coarseTolerance = 5; // pixels; of the scan in such an image, whose triangles take most of its time
+const calmMilliseconds = 200; // after which the image of a building that was shown at once is drawn with smooth edges
 const restMilliseconds = 60; // after which the point under the pointer is looked for in the scan
 const mostVisible = 2000; // m; with more of a large run in view, its models would be a few pixels each
+const pinHeight = 2.5; // m; so that a pin is seen beside a ridge
 const underFeet = 0.05; // m; the basemap is below the models, whose ground faces would flicker with it
 const inside = 0.05; // m; by which the outlines of a cut are behind its plane, which would hide them
 
@@ -79,6 +83,9 @@ export class Viewer {
   private readonly capLines = new WideLines(colours.cutLine, 2);
   private readonly measureLines = new WideLines(0xc2185b, 2.5, true);
   private readonly measureMarks = new Marks();
+  private readonly pinLines = new WideLines(0xc2186b, 3, true);
+  private readonly pinMarks = new Marks();
+  private readonly caseLines = new WideLines(colours.accent, 1.5, true);
   private readonly pairLines = new WideLines(0x2e59b8, 2, true);
   private readonly pairMarks = new Marks();
   private readonly others = new Others();
@@ -143,6 +150,9 @@ export class Viewer {
       this.capLines.object,
       this.measureLines.object,
       this.measureMarks.object,
+      this.caseLines.object,
+      this.pinLines.object,
+      this.pinMarks.object,
       this.pairLines.object,
       this.pairMarks.object,
       this.others.group,
@@ -164,6 +174,7 @@ export class Viewer {
   dispose() {
     this.gone.abort();
     cancelAnimationFrame(this.frameAsked);
+    clearTimeout(this.smoothed);
     this.tiles?.dispose();
     this.far.dispose();
     this.still?.dispose();
@@ -363,6 +374,51 @@ export class Viewer {
   }
   private measured: { points: readonly Vector[]; closed: boolean } = { points: [], closed: false };
 
+  /** Marks a place, with a line that stands on it; null: none. */
+  setPin(at: Vector | null) {
+    if (at === this.pin) return;
+    this.pin = at;
+    const lines = new Segments(this.centre);
+    if (at) lines.path([at, [at[0], at[1], at[2] + pinHeight]]);
+    this.pinLines.set(lines);
+    this.pinMarks.set(at ? at.map((x, i) => x - this.centre[i]!) : [], at ? [0.76, 0.09, 0.42] : []);
+    this.pinMarks.object.visible = at !== null;
+    this.request();
+  }
+  private pin: Vector | null = null;
+
+  /** The building under review: the edges of its roof are drawn over the scan. */
+  setCase(building: api.Building | null) {
+    if (building === this.caseOf) return;
+    this.caseOf = building;
+    const lines = new Segments(this.centre);
+    for (const { geometry } of building?.parts ?? []) {
+      if (!geometry) continue;
+      const at = (v: number) => geometry.positions.slice(3 * v, 3 * v + 3);
+      for (const face of geometry.faces)
+        if (face.class === "roof") for (const loop of face.loops) lines.path([...loop, loop[0]!].map(at));
+    }
+    this.caseLines.set(lines);
+    this.request();
+  }
+  private caseOf: api.Building | null = null;
+
+  /** The scan and the models side by side, with one camera. */
+  setBeside(on: boolean) {
+    if (on === this.beside) return;
+    this.beside = on;
+    if (!this.framed) this.place();
+    this.request();
+  }
+  private beside = false;
+
+  /** Buildings that the camera goes to next: the scan there is loaded. */
+  setNext(buildings: readonly string[]) {
+    this.next = buildings;
+    this.request(false);
+  }
+  private next: readonly string[] = [];
+
   /** Points of the scan, and the corners of footprints where they should be. */
   setPairs(pairs: readonly Pair[], begun: Vector | null) {
     this.pairs = { pairs, begun };
@@ -534,7 +590,7 @@ export class Viewer {
     this.renderer.setPixelRatio(Math.min(2, globalThis.devicePixelRatio || 1));
     this.renderer.setSize(this.width, this.height, false);
     for (const marks of this.marks) marks.material.uniforms.size!.value = 12 * this.renderer.getPixelRatio();
-    for (const marks of [this.measureMarks, this.pairMarks])
+    for (const marks of [this.measureMarks, this.pairMarks, this.pinMarks])
       marks.material.uniforms.size!.value = 10 * this.renderer.getPixelRatio();
     this.place();
     this.draw(); // a resized canvas is empty
@@ -560,30 +616,48 @@ export class Viewer {
       this.fly(camera.frame(flatPose, low, high, this.aspect));
     } else this.fly(flatPose);
   }
-  flyTo(building: string) {
+  /** `atOnce`: without a flight. */
+  flyTo(building: string, atOnce = false) {
+    const pose = this.poseAt(building);
+    if (pose) this.fly(pose, atOnce);
+  }
+  /** Whether the middle of a building is in the image. */
+  sees(building: string): boolean {
+    const at = this.project(building);
+    if (!at) return false;
+    const box = this.canvas.getBoundingClientRect();
+    return at.x >= box.left && at.x <= box.left + this.paneWidth && at.y >= box.top && at.y <= box.bottom;
+  }
+  private poseAt(building: string): Pose | null {
     const found = this.sides[0].building(building);
     const box = found ? boxOf(found) : (this.listed(building) ?? this.footprintBox((f) => f.id === building));
-    if (isEmpty(box)) return;
+    if (isEmpty(box)) return null;
     const { low, high } = this.centred(box);
     const wide = { low: low.map((x) => x - 3) as Vector, high: high.map((x) => x + 2) as Vector };
     const tilted = camera.isTop(this.goal)
       ? this.goal
       : { ...this.goal, elevation: Math.max(this.goal.elevation, 0.5) };
-    this.fly(camera.frame(tilted, wide.low, wide.high, this.aspect));
+    return camera.frame(tilted, wide.low, wide.high, this.aspect);
   }
   /** The box of a building of a large run, as the list has it. */
   private listed(building: string): Box | null {
     const at = this.large?.index.get(building);
     return at === undefined ? null : boxOfShapes(this.large!.shapes[at]!);
   }
-  private fly(to: Pose) {
-    const still = globalThis.matchMedia?.("(prefers-reduced-motion: reduce)").matches;
+  private fly(to: Pose, atOnce = false) {
+    const still = atOnce || globalThis.matchMedia?.("(prefers-reduced-motion: reduce)").matches;
     this.goal = to;
     this.framed = true;
-    if (still) this.pose = to;
+    this.hurried = atOnce;
+    clearTimeout(this.smoothed);
+    if (still) this.pose = { ...to }; // another object: the next image is the first of the new pose
     this.flight = still ? null : { from: this.pose, started: performance.now() };
     this.request();
   }
+
+  private coarse = false;
+  private hurried = false; // the next image is wanted as soon as possible: its edges are smoothed later
+  private smoothed: ReturnType<typeof setTimeout> | undefined;
 
   /** Position of the top of a building on the page; null if it is behind the camera or unknown. */
   project(building: string): { x: number; y: number } | null {
@@ -725,6 +799,7 @@ export class Viewer {
   }
   /** Whether a place on the page shows the scan only. */
   private modelsHidden(x: number) {
+    if (this.isBeside) return x < this.paneWidth;
     return this.divided !== null && !this.sides[1] && x < this.divided * this.width;
   }
   private masks(x: number) {
@@ -827,6 +902,11 @@ export class Viewer {
     this.setTerrain(this.terrainBytes);
     this.setMeasure(this.measured.points, this.measured.closed);
     this.setPairs(this.pairs.pairs, this.pairs.begun);
+    const [pin, caseOf] = [this.pin, this.caseOf];
+    this.setPin(null);
+    this.setPin(pin);
+    this.setCase(null);
+    this.setCase(caseOf);
     this.setSection(this.section);
   }
 
@@ -960,13 +1040,18 @@ export class Viewer {
     this.goal = this.pose = camera.home(low, high, this.aspect);
   }
 
+  private get isBeside() {
+    return this.beside && !this.sides[1];
+  }
   private get paneWidth() {
+    if (this.isBeside) return this.width / 2;
     return this.sides[1] && this.divided === null ? this.width / 2 : this.width;
   }
   private isRight(x: number) {
     return this.sides[1] !== null && x > (this.divided === null ? this.paneWidth : this.divided * this.width);
   }
   private inPane(x: number) {
+    if (this.isBeside) return x < this.paneWidth ? x : x - this.paneWidth;
     return this.divided === null && this.isRight(x) ? x - this.paneWidth : x;
   }
   private get aspect() {
@@ -1002,9 +1087,14 @@ export class Viewer {
       if (this.framed)
         this.listener.moved({ ...this.pose, target: this.pose.target.map((t, i) => t + this.centre[i]!) as Vector });
     }
-    this.draw(settled);
+    const quick = this.hurried && this.smooth !== null;
+    this.hurried = false;
+    this.coarse = quick;
+    this.draw(settled && !quick);
+    this.coarse = false;
     this.moving = !settled; // the next image follows at once
     if (!settled) this.request(false);
+    else if (quick) this.smoothed = setTimeout(() => this.request(false), calmMilliseconds);
   }
 
   private aim() {
@@ -1038,8 +1128,10 @@ export class Viewer {
     const [first, second] = this.sides;
     const { divided } = this;
     const split = divided === null ? null : Math.round(divided * this.width);
-    this.renderer.setScissorTest(second !== null || split !== null);
-    if (split !== null && !second) {
+    const beside = this.isBeside;
+    this.caseLines.object.visible = false; // over the scan alone
+    this.renderer.setScissorTest(second !== null || split !== null || beside);
+    if ((split !== null || beside) && !second) {
       // The scan on the left, the models on the right.
       const masked = this.tiles?.look.masked.value ?? 0;
       const scan = this.tiles?.look.opacity.value ?? 0;
@@ -1051,14 +1143,17 @@ export class Viewer {
         this.tiles.look.masked.value = 0;
         this.tiles.opacity = 1;
       }
-      this.pane(0, 0, split);
+      this.caseLines.object.visible = beside && this.caseOf !== null;
+      this.pane(0, 0, beside ? this.paneWidth : split!);
+      this.caseLines.object.visible = false;
       hide.forEach((o, i) => (o.visible = visible[i]!));
       this.showMarks(0);
       if (this.tiles) {
         this.tiles.look.masked.value = masked;
         this.tiles.opacity = scan;
       }
-      this.pane(0, split, this.width - split);
+      if (beside) this.pane(this.paneWidth, this.paneWidth, this.paneWidth);
+      else this.pane(0, split!, this.width - split!);
     } else {
       [first, second].forEach((side, i) => {
         if (!side) return;
@@ -1067,7 +1162,7 @@ export class Viewer {
           other.output.group.visible = other === side;
           if (other.segmentation) other.segmentation.group.visible = other === side;
         }
-        this.highlight.group.visible = i === 0 || second !== null;
+        this.highlight.group.visible = i === 0; // it is of the run on the left
         this.cap.object.visible = this.capLines.object.visible = i === 0 && this.filled > 0;
         this.showMarks(i);
         if (split !== null) this.pane(0, i ? split : 0, i ? this.width - split : split);
@@ -1081,7 +1176,7 @@ export class Viewer {
   /** An image of a drag, of which only the changed buildings and the highlights are new. */
   private drawDrag(): boolean {
     const [{ drafts, output }, second] = this.sides;
-    if (!this.still || second || this.divided !== null || drafts.size === 0) return false;
+    if (!this.still || second || this.divided !== null || this.beside || drafts.size === 0) return false;
     output.apart(drafts, changing);
     for (const object of [this.highlight.group, this.cap.object, this.capLines.object]) object.traverse((o) => o.layers.set(changing));
     this.cap.object.visible = this.capLines.object.visible = this.filled > 0;
@@ -1144,14 +1239,29 @@ export class Viewer {
   }
 
   private stream() {
-    if (!this.tiles || (!this.tiles.group.visible && this.divided === null)) return;
+    if (!this.tiles || (!this.tiles.group.visible && this.divided === null && !this.isBeside)) return;
+    const pose = this.pose;
+    const ahead = this.next.flatMap((building) => {
+      const next = this.poseAt(building);
+      if (!next) return [];
+      this.pose = next;
+      this.aim();
+      return [this.eyeNow()];
+    });
+    this.pose = pose;
+    this.aim();
+    this.tiles.update(this.eyeNow(), ahead, this.coarse ? coarseTolerance : undefined);
+  }
+
+  /** The camera as the tiles of the scan are chosen for it. */
+  private eyeNow(): Eye {
     const frustum = new THREE.Frustum().setFromProjectionMatrix(
       new THREE.Matrix4().multiplyMatrices(this.eye.projectionMatrix, this.eye.matrixWorldInverse),
     );
     const box = new THREE.Box3();
     const about = (v: THREE.Vector3, p: Vector) =>
       v.set(p[0] - this.centre[0], p[1] - this.centre[1], p[2] - this.centre[2]);
-    this.tiles.update({
+    return {
       position: this.eye.position.toArray().map((p, i) => p + this.centre[i]!) as Vector,
       pixels: (this.height * this.renderer.getPixelRatio()) / 2 / Math.tan(this.pose.fov / 2),
       sees: (tile) => {
@@ -1159,7 +1269,7 @@ export class Viewer {
         about(box.max, tile.high);
         return frustum.intersectsBox(box);
       },
-    });
+    };
   }
 }
 
