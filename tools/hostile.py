@@ -3,7 +3,8 @@
 
 Every case is a few files, made here, and a command. A case passes if the program ends within its time with a listed exit
 code and, where it is not 0, with one line that starts with "mansard: error[code]". That no file
-outside the folder of the case is opened is tested elsewhere (tests/ingest/references_test.cpp). PAGE is docs/hostile.md by default; "-" prints a summary only.
+outside the folder of the case is opened is tested elsewhere (tests/ingest/references_test.cpp). PAGE is docs/hostile.md by
+default; "-" prints a summary only.
 """
 import json
 import os

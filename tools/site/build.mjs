@@ -54,7 +54,7 @@ const top = [
   ["A whole city", docs("city")],
   ["Python, QGIS, Blender", docs("python", "qgis", "blender")],
   ["Workbench", docs("workbench", "serve")],
-  ["Results", docs("results", "robustness", "bench", "comparison")],
+  ["Results", docs("results", "robustness", "hostile", "bench", "comparison")],
 ];
 const placed = new Set([...top.flatMap(([, names]) => names), ...module_pages]);
 const other_pages = in_folder("docs").filter((name) => !placed.has(name));
