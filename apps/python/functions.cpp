@@ -8,10 +8,13 @@
 #include "apps/python/settings.hpp"
 #include "apps/python/work.hpp"
 #include "lab/simulate/simulate.hpp"
+#include "mansard/compare/compare.hpp"
 #include "mansard/label/scan.hpp"
 #include "mansard/pipeline/evaluation.hpp"
 #include "mansard/pipeline/inputs.hpp"
+#include "mansard/pipeline/states.hpp"
 #include "mansard/pipeline/stored.hpp"
+#include "mansard/report/changes.hpp"
 #include "mansard/report/layers.hpp"
 
 namespace py = pybind11;
@@ -154,6 +157,34 @@ auto evaluate(const fs::path& model, const std::vector<fs::path>& meshes, const 
   return py::make_tuple(json, table, drawn[0], drawn[1]);
 }
 
+/// A state, and the scan that it was made from: empty for that of the run.
+using StatePaths = std::pair<fs::path, std::vector<fs::path>>;
+
+auto compared(const StatePaths& old_paths, const StatePaths& new_paths, bool scans, const Settings& settings,
+              const py::object& progress) -> std::string {
+  pipeline::Options options;
+  compare::Options asked;
+  auto lists = pipeline::option_lists(options);
+  lists.push_back(compare::option_list(asked));
+  apply(lists, pipeline::presets(), "", settings);
+  return run_for(progress, seed_of(options), [&](const base::Run& run) -> base::Result<std::string> {
+    const auto read = [&](const StatePaths& paths) {
+      return pipeline::read_state(paths.first, {paths.second, scans, false}, options, run);
+    };
+    auto old = read(old_paths);
+    if (!old) return old.failure();
+    auto now = read(new_paths);
+    if (!now) return now.failure();
+    if (auto one = pipeline::in_one_frame(*old, *now); !one) return one.failure();
+    const auto found = compare::changes(old->state, now->state, asked, run);
+    if (run.cancelled()) return base::error("cancelled", "stopped on request");
+    auto inputs = old->inputs;
+    inputs.insert(inputs.end(), now->inputs.begin(), now->inputs.end());
+    return report::changes_json({old->state, now->state, found, asked, now->frame, old_paths.first.string(),
+                                 new_paths.first.string(), inputs, MANSARD_VERSION});
+  });
+}
+
 auto label(const std::vector<fs::path>& meshes, const fs::path& model_path, const std::string& lod,
            const Settings& settings, const py::object& progress) -> py::tuple {
   const auto options = options_of("", settings);
@@ -283,6 +314,8 @@ void bind_functions(py::module_& m) {
   m.def("segment", &segment, py::arg("scan"), py::arg("preset"), py::arg("settings"), py::arg("progress"));
   m.def("evaluate", &evaluate, py::arg("model"), py::arg("meshes"), py::arg("truth"), py::arg("footprints"),
         py::arg("lod"), py::arg("preset"), py::arg("settings"), py::arg("progress"));
+  m.def("compare", &compared, py::arg("old"), py::arg("new"), py::arg("scans"), py::arg("settings"),
+        py::arg("progress"));
   m.def("label", &label, py::arg("meshes"), py::arg("model"), py::arg("lod"), py::arg("settings"), py::arg("progress"));
   m.def("simulate", &simulated, py::arg("kind"), py::arg("footprints"), py::arg("preset"), py::arg("settings"),
         py::arg("progress"));

@@ -6,6 +6,7 @@
 
 #include "apps/python/work.hpp"
 #include "lab/simulate/simulate.hpp"
+#include "mansard/compare/compare.hpp"
 #include "mansard/edit/edit.hpp"
 #include "mansard/formats/drivers.hpp"
 #include "mansard/report/attributes.hpp"
@@ -66,6 +67,8 @@ auto option_table() -> py::list {
   py::list all;
   pipeline::Options options;
   for (const auto& list : pipeline::option_lists(options)) add(all, list);
+  compare::Options of_compare;
+  add(all, compare::option_list(of_compare));
   simulate::Options of_simulate;
   add(all, simulate::option_list(of_simulate));
   return all;

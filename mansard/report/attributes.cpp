@@ -22,15 +22,16 @@ constexpr std::array<std::string_view, 14> of_model{
     "ms_h_ridge",          "ms_roof_type",  "ms_volume_lod22",    "ms_rmse_lod22", "ms_area_roof_flat",
     "ms_area_roof_sloped", "ms_area_wall",  "ms_area_party_wall", "ms_fallback"};
 /// Those of a building that building_attributes() makes, beside those of its levels of detail.
-constexpr std::array of_building{"ms_outcome",     "ms_success",         "ms_quality",
-                                 "ms_checks",      "ms_confidence",      "ms_error",
-                                 "ms_h_ground",    "ms_h_roof_min",      "ms_h_roof_50p",
-                                 "ms_h_roof_70p",  "ms_h_roof_max",      "ms_h_eave",
-                                 "ms_h_ridge",     "ms_roof_type",       "ms_roof_planes",
-                                 "ms_ridges",      "ms_parts",           "ms_area_footprint",
-                                 "ms_area_ground", "ms_area_roof_flat",  "ms_area_roof_sloped",
-                                 "ms_area_wall",   "ms_area_party_wall", "ms_storeys",
-                                 "measuredHeight", "roofType",           "storeysAboveGround"};
+constexpr std::array of_building{"ms_outcome",          "ms_success",     "ms_quality",
+                                 "ms_checks",           "ms_confidence",  "ms_error",
+                                 "ms_reasons",          "ms_h_ground",    "ms_h_roof_min",
+                                 "ms_h_roof_50p",       "ms_h_roof_70p",  "ms_h_roof_max",
+                                 "ms_h_eave",           "ms_h_ridge",     "ms_roof_type",
+                                 "ms_roof_planes",      "ms_ridges",      "ms_parts",
+                                 "ms_area_footprint",   "ms_area_ground", "ms_area_roof_flat",
+                                 "ms_area_roof_sloped", "ms_area_wall",   "ms_area_party_wall",
+                                 "ms_storeys",          "measuredHeight", "roofType",
+                                 "storeysAboveGround"};
 
 auto name_is_of(const model::Attributes& attributes, std::string_view name) -> bool {
   return std::ranges::any_of(attributes, [&](const auto& one) { return one.first == name; });

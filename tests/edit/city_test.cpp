@@ -74,9 +74,12 @@ TEST(EditedCity, has_attributes_that_are_true_of_the_new_model) {
   auto parts = *town.history.parts("low");
   const double cap = 4.0;
   parts[0].plan = profile::vertical_plan(model::polygon_of(parts[0].plan), parts[0].plan.base, cap);
+  town.run.city.buildings[0].attributes.emplace_back("ms_reasons", "the scan is above the model");
   town.change("low", parts);
   const auto city = town.exported();
   const auto& low = city.buildings[0];
+  EXPECT_EQ(value<std::string>(low.attributes, "ms_quality"), "unknown");
+  EXPECT_FALSE(value<std::string>(low.attributes, "ms_reasons")) << "they were of the model before";
   const auto& attributes = low.parts[0].attributes;
   const double z0 = static_cast<double>(city.frame.origin[2]);
   EXPECT_EQ(value<bool>(attributes, "ms_edited"), true);

@@ -231,6 +231,16 @@ class Others(WithFolder):
         self.assertEqual(by_path.error.ndim, 2)
         self.assertLess(by_path.extent[0], by_path.extent[1])
 
+    def test_compare_gives_the_report_of_the_command_line(self):
+        city = mansard.reconstruct(MESH, FOOTPRINTS)
+        city.write(self.folder / "old.city.json")
+        city.write(self.folder / "new.city.json")
+        printed = json.loads(run("compare", self.folder / "old.city.json", self.folder / "new.city.json", "--json", "-q"))
+        same = mansard.compare(self.folder / "old.city.json", self.folder / "new.city.json", compare_smallest=0.5)
+        self.assertEqual(same, printed)
+        with self.assertRaises(mansard.Error):
+            mansard.compare(self.folder / "old.city.json", self.folder / "none.city.json")
+
     def test_label_counts_as_the_command_line_does(self):
         city = mansard.reconstruct(MESH, FOOTPRINTS)
         city.write(self.folder / "model.city.json")

@@ -27,9 +27,9 @@ __version__ = _core.__version__
 
 __all__ = [
     "Building", "City", "Diagnostic", "Error", "Evaluation", "Labels", "Part", "Plan", "ExtrudedBuilding", "Scan",
-    "Segmentation", "Simulation", "Solid", "FACE_CLASSES", "SCAN_CLASSES", "convert", "evaluate", "explain", "extrude",
-    "formats", "label", "limit_threads", "options", "presets", "extrude_plan", "read_city", "read_scan", "reconstruct",
-    "segment", "simulate",
+    "Segmentation", "Simulation", "Solid", "FACE_CLASSES", "SCAN_CLASSES", "compare", "convert", "evaluate", "explain",
+    "extrude", "formats", "label", "limit_threads", "options", "presets", "extrude_plan", "read_city", "read_scan",
+    "reconstruct", "segment", "simulate",
 ]
 
 #: Names of the numbers in :attr:`Solid.classes`.
@@ -179,6 +179,25 @@ def evaluate(model, mesh, *, truth=None, footprints=None, lod="", preset="", pro
             return Evaluation(*_core.evaluate(model_path, meshes, "", outlines, *arguments))
         with _model_path(truth) as truth_path:
             return Evaluation(*_core.evaluate(model_path, meshes, truth_path, outlines, *arguments))
+
+
+def compare(old, new, *, old_scan=None, new_scan=None, scans=True, progress=None, **options):
+    """Tells what has changed between two states of a city.
+
+    Args:
+        old, new: a folder of ``mansard reconstruct``, a path of models of any producer, or of footprints with heights.
+        old_scan, new_scan: the scan that the models were made from, a path or several; without it that of the run.
+        scans: False compares the models alone.
+
+    Returns:
+        A dictionary: what ``mansard compare --json`` prints.
+    """
+    def paths(scan):
+        many = isinstance(scan, (list, tuple))
+        return [] if scan is None else [_os.fspath(path) for path in (scan if many else [scan])]
+
+    return _json.loads(_core.compare((_os.fspath(old), paths(old_scan)), (_os.fspath(new), paths(new_scan)), scans,
+                                     _settings(options), progress))
 
 
 def label(mesh, model, *, lod="", progress=None, **options):

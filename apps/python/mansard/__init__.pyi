@@ -186,6 +186,9 @@ class Labels:
     classes: NDArray[numpy.uint8]
     origin: tuple[int, int, int]
 
+def compare(old: _Path, new: _Path, *, old_scan: _Path | Iterable[_Path] | None = None,
+            new_scan: _Path | Iterable[_Path] | None = None, scans: bool = True, progress: _Progress = None,
+            **options: Any) -> dict[str, Any]: ...
 def convert(path: _Path, to: _Path | Iterable[_Path], *, overwrite: bool = False, progress: _Progress = None,
             **options: Any) -> None: ...
 def evaluate(model: City | _Path, mesh: Scan | _Mesh, *, truth: City | _Path | None = None,
