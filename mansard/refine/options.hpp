@@ -126,8 +126,8 @@ struct Options {
     std::int64_t starts = 4;
     /// Number of forms that a quick search follows. Chosen by hand; not measured.
     std::int64_t quick_starts = 2;
-    /// The bound of a building's search: 100 µs a sample of its parts, in units of account.hpp, where a corner counts as
-    /// 100 samples. No option. Of 263 buildings the dearest, b9, takes 61 µs, half of them under 1.
+    /// The bound of a building's search: 100 µs a sample of its parts, in units of account.hpp, where a corner counts
+    /// as 100 samples. No option. Of 263 buildings the dearest, b9, takes 61 µs, half of them under 1.
     /// Docs/decisions/0132-bounded-work.md.
     std::int64_t most_work = 10000;
     /// Roofs that one search asks for, one after the other. No option: ordinary ones ask for at most 500, but a ring of
