@@ -10,7 +10,6 @@
 #include "apps/cli/output.hpp"
 #include "apps/cli/scan.hpp"
 #include "apps/cli/verbs.hpp"
-#include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/foreign.hpp"
 #include "mansard/pipeline/states.hpp"
@@ -152,14 +151,9 @@ auto compare_states(const CompareRequest& request, const base::Cancel& cancel) -
   auto now = read(request.now, request.new_scan, !targets->empty());
   if (!now) return give_up(now.errors());
   if (auto can = check_targets(*now, *targets); !can) return give_up(can.errors());
-  if (auto one = pipeline::in_one_frame(*old, *now); !one) return give_up(one.errors());
-
-  const auto found = compare::changes(old->state, now->state, asked, run);
-  if (run.cancelled()) return give_up(base::stopped());
-  auto inputs = old->inputs;
-  inputs.insert(inputs.end(), now->inputs.begin(), now->inputs.end());
-  const report::Changes changes{old->state,  now->state,  found,  asked,          now->frame,
-                                request.old, request.now, inputs, MANSARD_VERSION};
+  const auto found = pipeline::changes_between(*old, *now, asked, run);
+  if (!found) return give_up(found.errors());
+  const auto& changes = *found;
   if (!request.out.empty()) {
     if (auto written = write_results(request, changes, run); !written) return give_up(written.errors());
     if (now->city)

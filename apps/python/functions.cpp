@@ -8,13 +8,11 @@
 #include "apps/python/settings.hpp"
 #include "apps/python/work.hpp"
 #include "lab/simulate/simulate.hpp"
-#include "mansard/compare/compare.hpp"
 #include "mansard/label/scan.hpp"
 #include "mansard/pipeline/evaluation.hpp"
 #include "mansard/pipeline/inputs.hpp"
 #include "mansard/pipeline/states.hpp"
 #include "mansard/pipeline/stored.hpp"
-#include "mansard/report/changes.hpp"
 #include "mansard/report/layers.hpp"
 
 namespace py = pybind11;
@@ -175,13 +173,9 @@ auto compared(const StatePaths& old_paths, const StatePaths& new_paths, bool sca
     if (!old) return old.failure();
     auto now = read(new_paths);
     if (!now) return now.failure();
-    if (auto one = pipeline::in_one_frame(*old, *now); !one) return one.failure();
-    const auto found = compare::changes(old->state, now->state, asked, run);
-    if (run.cancelled()) return base::error("cancelled", "stopped on request");
-    auto inputs = old->inputs;
-    inputs.insert(inputs.end(), now->inputs.begin(), now->inputs.end());
-    return report::changes_json({old->state, now->state, found, asked, now->frame, old_paths.first.string(),
-                                 new_paths.first.string(), inputs, MANSARD_VERSION});
+    const auto changes = pipeline::changes_between(*old, *now, asked, run);
+    if (!changes) return changes.failure();
+    return report::changes_json(*changes);
   });
 }
 

@@ -10,6 +10,8 @@
 #include "mansard/formats/input_file.hpp"
 #include "mansard/formats/input_name.hpp"
 #include "mansard/formats/plans.hpp"
+#include "mansard/model/find.hpp"
+#include "mansard/model/move.hpp"
 #include "mansard/pipeline/stored.hpp"
 #include "mansard/solid/solid.hpp"
 
@@ -44,26 +46,9 @@ auto models_in(const fs::path& folder, const fs::path& zip) -> base::Result<fs::
                      zip.string());
 }
 
-void move(geometry::Ring& ring, geometry::Point2 by) {
-  for (auto& p : ring) p = p + by;
-}
-
-/// Frames differ by whole metres, so nothing is rounded.
 void move(model::City& city, const model::Frame& frame) {
-  const auto along = [&](std::size_t i) { return static_cast<double>(city.frame.origin[i] - frame.origin[i]); };
-  const geometry::Point2 by{along(0), along(1)};
-  for (auto& building : city.buildings) {
-    building.ground += along(2);
-    for (auto& polygon : building.footprint) {
-      move(polygon.outer, by);
-      for (auto& hole : polygon.holes) move(hole, by);
-    }
-    for (auto& part : building.parts) {
-      part.plan.base += along(2);
-      move(part.plan.outer.points, by);
-      for (auto& hole : part.plan.holes) move(hole.points, by);
-    }
-  }
+  const auto by = model::between(city.frame, frame);
+  for (auto& building : city.buildings) model::move(building, by);
   city.frame = frame;
 }
 
@@ -77,12 +62,6 @@ auto move_into(const model::Frame& frame, model::City& city, const fs::path& pat
   return {};
 }
 
-auto text_at(const model::Attributes& attributes, std::string_view name) -> std::string {
-  for (const auto& [key, value] : attributes)
-    if (const auto* text = std::get_if<std::string>(&value); text != nullptr && key == name) return *text;
-  return {};
-}
-
 /// The report of a building, from its attributes.
 auto report_of(const model::Building& building, const pipeline::RaisedPlans& raised, std::size_t at)
     -> report::BuildingReport {
@@ -92,11 +71,12 @@ auto report_of(const model::Building& building, const pipeline::RaisedPlans& rai
   report.ground = building.ground + static_cast<double>(raised.city.frame.origin[2]);
   if (building.parts.empty()) report.outcome = report::Outcome::covered;
   for (const auto& part : building.parts) {
-    if (report.block.empty()) report.block = text_at(part.attributes, "ms_block");
+    const auto* block = model::find<std::string>(part.attributes, "ms_block");
+    if (report.block.empty() && block != nullptr) report.block = *block;
     report.volume += solid::volume(part.model.solid);
-    if (const auto why = text_at(part.attributes, "ms_fallback"); !why.empty()) {
+    if (const auto* why = model::find<std::string>(part.attributes, "ms_fallback"); why != nullptr && !why->empty()) {
       report.outcome = report::Outcome::fallback;
-      report.reasons.push_back(base::warning(why, "the part was simplified by the run that made it", part.id));
+      report.reasons.push_back(base::warning(*why, "the part was simplified by the run that made it", part.id));
     }
   }
   for (const auto& less : raised.fell_short)

@@ -257,30 +257,33 @@ auto rms_of(const Places& places, const Pair& pair) -> double {
   return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
-/// What is measured of one building, before it is known which chances are small enough.
-auto measured(const Pair& pair, Change change, const Ground& ground) -> Change {
-  const auto places = detail::places_of(ground, pair.old_surfaces, pair.new_surfaces);
-  std::vector<bool> all(places.all.size());
+/// By how much the roofs of both states differ, where both have one.
+void measure_height(const Places& places, Change& change) {
   std::vector<double> heights;
-  for (std::size_t c = 0; c < places.all.size(); ++c) {
-    const auto& place = places.all[c];
-    all[c] = place.of != Of::nothing;
-    change.cells += all[c] ? 1 : 0;
+  for (const auto& place : places.all)
     if (place.of == Of::both) heights.push_back(place.models);
+  if (heights.empty()) return;
+  change.common = static_cast<double>(heights.size()) * places.step * places.step;
+  change.height = base::mean_median(std::move(heights));
+}
+
+/// What is measured of one building, before it is known which chances are small enough.
+void measure(const Pair& pair, const Places& places, Change& change) {
+  std::vector<bool> all(places.all.size());
+  for (std::size_t c = 0; c < places.all.size(); ++c) {
+    all[c] = places.all[c].of != Of::nothing;
+    change.cells += all[c] ? 1 : 0;
   }
   if (change.cells == 0) {
     change.kind = Kind::unseen;
     change.why.emplace_back("one of the states has neither a model nor a scan there");
-    return change;
+    return;
   }
   change.area = static_cast<double>(change.cells) * places.step * places.step;
   change.old_seen = share_seen(places, all, &Place::old_seen);
   change.new_seen = share_seen(places, all, &Place::new_seen);
-  if (!heights.empty()) {
-    change.common = static_cast<double>(heights.size()) * places.step * places.step;
-    change.rms = rms_of(places, pair);
-    change.height = base::mean_median(std::move(heights));
-  }
+  measure_height(places, change);
+  if (change.common > 0) change.rms = rms_of(places, pair);
   change.parts = parts_of(places, pair, change, By::pairs);
   std::ranges::stable_sort(change.parts,
                            [](const Part& a, const Part& b) { return std::abs(a.volume) > std::abs(b.volume); });
@@ -290,7 +293,6 @@ auto measured(const Pair& pair, Change change, const Ground& ground) -> Change {
     for (const auto& part : parts_of(places, pair, change, By::models))
       change.why.push_back("the models differ by " + base::to_text(part.height, 1) + " m over " +
                            base::to_text(part.area, 0) + " m², which the scans do not show");
-  return change;
 }
 
 constexpr double ways = 4;  // in which a building may have changed: raised, lowered, extended, reduced
@@ -397,7 +399,8 @@ void prepare(Pair& pair) {
 }
 
 /// Every building of the new state, then the old ones without any.
-auto measure_all(const Pair& pair, const base::Run& run, double from, double to) -> std::vector<Change> {
+template <class Work>
+auto measure_all(const Pair& pair, const base::Run& run, double from, double to, Work work) -> std::vector<Change> {
   std::vector<Change> out;
   for (std::uint32_t n = 0; n < pair.now.buildings.size(); ++n) {
     auto& change = out.emplace_back();
@@ -413,7 +416,7 @@ auto measure_all(const Pair& pair, const base::Run& run, double from, double to)
       auto& change = out[first + i];
       const auto ground =
           change.now.empty() ? ground_of_old(pair, change.old.front()) : ground_of_new(pair, change.now.front());
-      change = measured(pair, std::move(change), ground);
+      work(detail::places_of(ground, pair.old_surfaces, pair.new_surfaces), change);
     });
     run.report("compare", "",
                from + (to - from) * static_cast<double>(first + count) / static_cast<double>(out.size()));
@@ -473,10 +476,10 @@ auto changes(const State& old, const State& now, const Options& options, const b
   Pair pair(old, now, options);
   prepare(pair);
   pair.offset = detail::displacement(old, pair.old_outlines, now, pair.new_outlines, pair.matching);
-  auto found = measure_all(pair, run, 0, 0.4);
+  auto found = measure_all(pair, run, 0, 0.4, measure_height);
   measure_offset(found, pair);
   prepare(pair);
-  found = measure_all(pair, run, 0.4, 1);
+  found = measure_all(pair, run, 0.4, 1, [&](const Places& places, Change& change) { measure(pair, places, change); });
   pair.model_error = model_error_of(found);
   const auto weigh_all = [&] {
     for (auto& change : found) weigh(pair, change);

@@ -8,6 +8,8 @@
 #include "mansard/accuracy/accuracy.hpp"
 #include "mansard/base/stopped.hpp"
 #include "mansard/block/block.hpp"
+#include "mansard/model/find.hpp"
+#include "mansard/model/move.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/rays/rays.hpp"
 
@@ -71,71 +73,38 @@ auto blocks_of(const model::Scene& scene, const Options& options, const base::Ru
 
 // ---- an old building in the new city
 
-struct Mover {
-  geometry::Point3 by;
-  void operator()(geometry::Ring& ring) const {
-    for (auto& p : ring) p = p + xy(by);
-  }
-  void operator()(std::vector<geometry::Polygon>& polygons) const {
-    for (auto& polygon : polygons) {
-      (*this)(polygon.outer);
-      for (auto& hole : polygon.holes) (*this)(hole);
-    }
-  }
-  void operator()(model::LabelledSolid& solid) const {
-    for (auto& p : solid.solid.vertices) p = p + by;
-  }
-  void operator()(model::Building& building) const {
-    (*this)(building.footprint);
-    building.ground += by.z;
-    for (auto& part : building.parts) {
-      (*this)(part.plan.outer.points);
-      for (auto& hole : part.plan.holes) (*this)(hole.points);
-      part.plan.base += by.z;
-      (*this)(part.model);
-    }
-    for (auto& solid : building.solids) (*this)(solid.model);
-  }
-};
-
-auto text_at(const model::Attributes& attributes, std::string_view name) -> std::string {
-  for (const auto& [key, value] : attributes)
-    if (key == name)
-      if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  return {};
-}
-
-auto real_at(const model::Attributes& attributes, std::string_view name) -> std::optional<double> {
-  for (const auto& [key, value] : attributes)
-    if (key == name)
-      if (const auto* number = std::get_if<double>(&value)) return *number;
-  return std::nullopt;
-}
-
 /// What the earlier run said of it, as far as its attributes have it.
 auto report_of(const model::Building& building, const std::string& block, bool derived) -> report::BuildingReport {
   report::BuildingReport out;
   const auto& all = building.attributes;
+  const auto real = [&](const char* name) -> std::optional<double> {
+    const auto* number = model::find<double>(all, name);
+    return number != nullptr ? std::optional(*number) : std::nullopt;
+  };
+  const auto text = [&](const char* name) {
+    const auto* found = model::find<std::string>(all, name);
+    return found != nullptr ? *found : std::string();
+  };
   out.id = building.id;
   out.block = block;
   out.derived = derived;
-  out.outcome = text_at(all, "ms_outcome") == "fallback" ? report::Outcome::fallback : report::Outcome::full;
+  out.outcome = text("ms_outcome") == "fallback" ? report::Outcome::fallback : report::Outcome::full;
   out.parts = building.parts.size();
-  out.ground = real_at(all, "ms_h_ground").value_or(0);
-  out.roof_min = real_at(all, "ms_h_roof_min").value_or(0);
-  out.roof_max = real_at(all, "ms_h_roof_max").value_or(0);
-  out.ground_mean = real_at(all, "ms_h_ground_mean");
-  out.ground_max = real_at(all, "ms_h_ground_max");
-  out.ground_source = text_at(all, "ms_ground_source");
-  out.volume = real_at(all, "ms_volume_lod22").value_or(0);
-  out.areas.wall = real_at(all, "ms_area_wall").value_or(0);
-  out.areas.party_wall = real_at(all, "ms_area_party_wall").value_or(0);
-  out.areas.roof_flat = real_at(all, "ms_area_roof_flat").value_or(0);
-  out.areas.roof_sloped = real_at(all, "ms_area_roof_sloped").value_or(0);
-  out.areas.ground = real_at(all, "ms_area_ground").value_or(0);
-  out.rmse = real_at(all, "ms_rmse_lod22");
-  if (const auto right = real_at(all, "ms_confidence"))
-    out.confidence = confidence::Confidence{*right, real_at(all, "ms_error").value_or(0), {}};
+  out.ground = real("ms_h_ground").value_or(0);
+  out.roof_min = real("ms_h_roof_min").value_or(0);
+  out.roof_max = real("ms_h_roof_max").value_or(0);
+  out.ground_mean = real("ms_h_ground_mean");
+  out.ground_max = real("ms_h_ground_max");
+  out.ground_source = text("ms_ground_source");
+  out.volume = real("ms_volume_lod22").value_or(0);
+  out.areas.wall = real("ms_area_wall").value_or(0);
+  out.areas.party_wall = real("ms_area_party_wall").value_or(0);
+  out.areas.roof_flat = real("ms_area_roof_flat").value_or(0);
+  out.areas.roof_sloped = real("ms_area_roof_sloped").value_or(0);
+  out.areas.ground = real("ms_area_ground").value_or(0);
+  out.rmse = real("ms_rmse_lod22");
+  if (const auto right = real("ms_confidence"))
+    out.confidence = confidence::Confidence{*right, real("ms_error").value_or(0), {}};
   return out;
 }
 
@@ -173,12 +142,9 @@ auto find_changed(const model::Scene& scene, const std::filesystem::path& old, c
   now.frame = scene.frame;
   now.state = state_of(scene, options);
   const auto blocks = blocks_of(scene, options, run, now.state);
-  const auto& from = out.old.frame.origin;
-  const Mover move{{static_cast<double>(from[0] - scene.frame.origin[0]),
-                    static_cast<double>(from[1] - scene.frame.origin[1]),
-                    static_cast<double>(from[2] - scene.frame.origin[2])}};
+  const auto by = model::between(out.old.frame, scene.frame);
   if (auto one = in_one_frame(out.old, now); !one) return one.failure();
-  for (auto& building : out.old.city->buildings) move(building);
+  for (auto& building : out.old.city->buildings) model::move(building, by);
   out.found = compare::changes(out.old.state, now.state, {}, run);
   if (run.cancelled()) return base::stopped();
 

@@ -13,6 +13,8 @@
 #include "mansard/formats/foreign.hpp"
 #include "mansard/formats/results.hpp"
 #include "mansard/ingest/model.hpp"
+#include "mansard/model/move.hpp"
+#include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/inputs.hpp"
 #include "mansard/pipeline/stored.hpp"
 #include "mansard/report/read_run.hpp"
@@ -253,16 +255,24 @@ auto read_state(const fs::path& path, const StateOptions& wanted, const Options&
   return out;
 }
 
+auto changes_between(StateFiles& old, const StateFiles& now, const compare::Options& options, const base::Run& run)
+    -> base::Result<report::Changes> {
+  if (auto one = in_one_frame(old, now); !one) return one.failure();
+  auto found = compare::changes(old.state, now.state, options, run);
+  if (run.cancelled()) return base::stopped();
+  auto inputs = old.inputs;
+  inputs.insert(inputs.end(), now.inputs.begin(), now.inputs.end());
+  return report::Changes{old.state,         now.state,         std::move(found),  options,          now.frame,
+                         old.path.string(), now.path.string(), std::move(inputs), detail::version()};
+}
+
 auto in_one_frame(StateFiles& old, const StateFiles& now) -> base::Result<void> {
   if (!old.frame.crs.empty() && !now.frame.crs.empty() && !crs::same_crs(old.frame.crs, now.frame.crs))
     return base::error("compare-crs",
                        "the old state is in " + old.frame.crs + ", the new one in " + now.frame.crs +
                            "; transform one of them: for footprints with heights --crs does that",
                        old.path.string());
-  std::array<double, 3> by{};
-  for (std::size_t i = 0; i < 3; ++i)
-    by[i] = static_cast<double>(old.frame.origin[i]) - static_cast<double>(now.frame.origin[i]);
-  const Point3 shift{by[0], by[1], by[2]};
+  const auto shift = model::between(old.frame, now.frame);
   for (auto* mesh : {&old.state.models, &old.state.scan}) {
     for (auto& p : mesh->vertices) p = p + shift;
     for (auto& p : mesh->points) p = p + shift;
@@ -270,13 +280,7 @@ auto in_one_frame(StateFiles& old, const StateFiles& now) -> base::Result<void> 
   geometry::Box2 before, after;
   for (auto& building : old.state.buildings) {
     building.ground += shift.z;
-    for (auto& polygon : building.outline) {
-      const auto move = [&](geometry::Ring& ring) {
-        for (auto& p : ring) p = p + xy(shift);
-      };
-      move(polygon.outer);
-      std::ranges::for_each(polygon.holes, move);
-    }
+    for (auto& polygon : building.outline) geometry::move(polygon, xy(shift));
     before.include(geometry::bounds(building.outline));
   }
   old.frame = now.frame;

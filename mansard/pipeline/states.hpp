@@ -9,6 +9,7 @@
 #include "mansard/compare/compare.hpp"
 #include "mansard/model/city.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/report/changes.hpp"
 
 namespace mansard::pipeline {
 
@@ -39,6 +40,11 @@ struct StateFiles {
 /// as the readers do.
 [[nodiscard]] auto read_state(const std::filesystem::path& path, const StateOptions& wanted, const Options& options,
                               const base::Run& run = {}) -> base::Result<StateFiles>;
+
+/// What has changed between two states, the old one in the frame of the new one, which both are after it. They must
+/// live as long as what is returned. Fails as in_one_frame, and when the run is cancelled.
+[[nodiscard]] auto changes_between(StateFiles& old, const StateFiles& now, const compare::Options& options,
+                                   const base::Run& run = {}) -> base::Result<report::Changes>;
 
 /// The old state in the frame of the new one. Fails with "compare-crs" (they have different CRS), "compare-overlap".
 [[nodiscard]] auto in_one_frame(StateFiles& old, const StateFiles& now) -> base::Result<void>;

@@ -9,6 +9,7 @@
 #include "mansard/base/statistics.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/label/label.hpp"
+#include "mansard/model/find.hpp"
 #include "mansard/report/measures.hpp"
 #include "mansard/report/report.hpp"
 #include "mansard/solid/solid.hpp"
@@ -52,12 +53,6 @@ auto with(const model::Attributes& before, const Names& names, model::Attributes
   }
   if (!placed) out.insert(out.end(), now.begin(), now.end());
   return out;
-}
-
-template <class T>
-auto value_of(const model::Attributes& attributes, std::string_view name) -> const T* {
-  const auto found = std::ranges::find(attributes, name, &model::Attributes::value_type::first);
-  return found != attributes.end() ? std::get_if<T>(&found->second) : nullptr;
 }
 
 }  // namespace
@@ -180,14 +175,14 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
   bool full = true;
   for (const auto& part : building.parts) {
     volume += solid::volume(part.model.solid);
-    if (const auto* z = value_of<double>(part.attributes, "ms_h_roof_max"))
+    if (const auto* z = model::find<double>(part.attributes, "ms_h_roof_max"))
       highest = std::max(highest.value_or(*z), *z);
-    if (const auto* rmse = value_of<double>(part.attributes, "ms_rmse_lod22")) {
+    if (const auto* rmse = model::find<double>(part.attributes, "ms_rmse_lod22")) {
       const double ground = label::areas(part.model).ground;
       squared += *rmse * *rmse * ground;
       area += ground;
     }
-    full = full && value_of<std::string>(part.attributes, "ms_fallback") == nullptr;
+    full = full && model::find<std::string>(part.attributes, "ms_fallback") == nullptr;
   }
   const auto outcome = building.parts.empty() ? Outcome::covered : full ? Outcome::full : Outcome::fallback;
   // CityGML's three are made anew, unless the source has them: then their place is before ours.
@@ -209,7 +204,7 @@ auto building_attributes(const model::Building& building, double z0) -> model::A
               std::nullopt, now);
   constexpr double storey = 3;  // m; the default of roof.level_height
   // The ground was not edited.
-  const auto* mean = value_of<double>(building.attributes, "ms_h_ground_mean");
+  const auto* mean = model::find<double>(building.attributes, "ms_h_ground_mean");
   for (auto& measure : building_measures(plain, z0, storey, mean ? std::optional(*mean - z0) : std::nullopt))
     now.push_back(std::move(measure));
   for (auto& measure : levels) now.push_back(std::move(measure));

@@ -16,8 +16,8 @@ namespace mansard::report {
 struct Changes {
   const compare::State& old;
   const compare::State& now;
-  const compare::Comparison& found;
-  const compare::Options& options;
+  compare::Comparison found;
+  compare::Options options;
   model::Frame frame;
   std::string old_name, new_name;  ///< the files
   std::vector<model::InputFile> inputs;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mansard/base/statistics.hpp"
+#include "mansard/geometry/change.hpp"
 
 namespace mansard::compare::detail {
 namespace {
@@ -18,23 +19,16 @@ auto area_of(const std::vector<Polygon>& outline) -> double {
   return sum;
 }
 
-auto moved(Polygon polygon, Point2 by) -> Polygon {
-  const auto move = [&](geometry::Ring& ring) {
-    for (auto& p : ring) p = p + by;
-  };
-  move(polygon.outer);
-  std::ranges::for_each(polygon.holes, move);
-  return polygon;
-}
-
 /// m² of ground that two outlines have in common. Where that cannot be computed, they count as the same.
 auto common_area(const std::vector<Polygon>& a, const std::vector<Polygon>& b, Point2 shift_of_a) -> double {
   double sum = 0;
-  for (const auto& p : a)
+  for (auto p : a) {
+    geometry::move(p, shift_of_a);
     for (const auto& q : b) {
-      const auto common = geometry::intersect(moved(p, shift_of_a), q);
+      const auto common = geometry::intersect(p, q);
       sum += common ? area_of(*common) : std::min(geometry::area(p), geometry::area(q));
     }
+  }
   return sum;
 }
 

@@ -11,6 +11,7 @@
 #include "mansard/formats/plans.hpp"
 #include "mansard/formats/plans/plan_items.hpp"
 #include "mansard/formats/plans/plan_text.hpp"
+#include "mansard/model/move.hpp"
 
 namespace mansard::formats::detail {
 namespace {
@@ -132,24 +133,9 @@ auto read_part(const Item& item, std::set<std::string>& ids) -> model::Part {
 
 /// Everything that is placed by whole metres elsewhere.
 void move(model::City& city, const std::array<std::int64_t, 3>& by) {
-  const Point2 across{static_cast<double>(by[0]), static_cast<double>(by[1])};
-  const auto up = static_cast<double>(by[2]);
-  const auto move_ring = [&](geometry::Ring& ring) {
-    for (Point2& p : ring) p = p - across;
-  };
-  for (auto& building : city.buildings) {
-    building.ground -= up;
-    for (auto& polygon : building.footprint) {
-      move_ring(polygon.outer);
-      for (auto& hole : polygon.holes) move_ring(hole);
-    }
-    for (auto& part : building.parts) {
-      part.plan.base -= up;
-      move_ring(part.plan.outer.points);
-      for (auto& hole : part.plan.holes) move_ring(hole.points);
-    }
-  }
+  const auto before = city.frame;
   for (std::size_t axis = 0; axis < 3; ++axis) city.frame.origin[axis] += by[axis];
+  for (auto& building : city.buildings) model::move(building, model::between(before, city.frame));
 }
 
 /// Plans whose middle is far from their origin get one near it, as footprints do: models are kept in single precision
