@@ -14,7 +14,7 @@
 #include "apps/server/review_place.hpp"
 #include "mansard/confidence/confidence.hpp"
 #include "mansard/roof/roof.hpp"
-#include "mansard/solid/solid.hpp"
+#include "mansard/solid/append_surface.hpp"
 
 namespace mansard::server {
 namespace {
@@ -29,13 +29,7 @@ constexpr double flattest_pitch = 0.03;  // rise over run; less is a flat roof
 
 auto mesh_of_solids(const std::vector<const model::Solid*>& solids) -> geometry::Mesh {
   geometry::Mesh mesh;
-  for (const auto* solid : solids) {
-    const auto pieces = solid::triangulate(*solid);
-    if (!pieces) continue;
-    const auto from = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), solid->vertices.begin(), solid->vertices.end());
-    for (const auto& t : pieces->triangles) mesh.triangles.push_back({t[0] + from, t[1] + from, t[2] + from});
-  }
+  for (const auto* one : solids) solid::append_surface(*one, mesh);
   return mesh;
 }
 

@@ -10,6 +10,7 @@
 #include "mansard/base/statistics.hpp"
 #include "mansard/evaluate/walls.hpp"
 #include "mansard/geometry/angles.hpp"
+#include "mansard/solid/append_surface.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::confidence {
@@ -162,13 +163,7 @@ auto largest(const Grid& grid, const std::vector<bool>& marked) -> std::size_t {
 
 auto model_of(const Site& site) -> geometry::Mesh {
   geometry::Mesh out;
-  for (const auto* one : site.solids) {
-    const auto pieces = solid::triangulate(one->solid);
-    if (!pieces) continue;
-    const auto first = static_cast<std::uint32_t>(out.vertices.size());
-    out.vertices.insert(out.vertices.end(), one->solid.vertices.begin(), one->solid.vertices.end());
-    for (const auto& t : pieces->triangles) out.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
+  for (const auto* one : site.solids) solid::append_surface(one->solid, out);
   return out;
 }
 

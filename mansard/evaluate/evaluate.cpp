@@ -1,4 +1,5 @@
 #include "mansard/evaluate/evaluate.hpp"
+#include "mansard/solid/append_surface.hpp"
 #include "mansard/solid/solid.hpp"
 
 #include <algorithm>
@@ -19,14 +20,7 @@ using geometry::Box2;
 /// The solids' surfaces as one mesh, without those that cannot be cut into triangles; `lost` is how many they are.
 auto surface_of(std::span<const model::LabelledSolid> model, std::size_t& lost) -> geometry::Mesh {
   geometry::Mesh mesh;
-  for (const auto& labelled : model) {
-    const auto pieces = solid::triangulate(labelled.solid);
-    lost += pieces ? 0 : 1;
-    if (!pieces) continue;
-    const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), labelled.solid.vertices.begin(), labelled.solid.vertices.end());
-    for (const auto& t : pieces->triangles) mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-  }
+  for (const auto& labelled : model) lost += solid::append_surface(labelled.solid, mesh) ? 0 : 1;
   return mesh;
 }
 

@@ -4,7 +4,7 @@
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/evaluate/detail/sums.hpp"
-#include "mansard/solid/solid.hpp"
+#include "mansard/solid/append_surface.hpp"
 
 namespace mansard::evaluate {
 namespace {
@@ -85,13 +85,7 @@ auto footprint_error(std::span<const model::Solid* const> solids, const rays::Sc
                      std::span<const geometry::Polygon> footprints, double ground, const Options& options)
     -> std::optional<double> {
   geometry::Mesh surface;
-  for (const auto* one : solids) {
-    const auto pieces = solid::triangulate(*one);
-    if (!pieces) continue;
-    const auto offset = static_cast<std::uint32_t>(surface.vertices.size());
-    surface.vertices.insert(surface.vertices.end(), one->vertices.begin(), one->vertices.end());
-    for (const auto& t : pieces->triangles) surface.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-  }
+  for (const auto* one : solids) solid::append_surface(*one, surface);
   const auto scores = scores_over(rays::Scene(surface), mesh, footprints, ground, options);
   return scores.footprint_cells > 0 ? std::optional(scores.footprint_mse) : std::nullopt;
 }
