@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace mansard::refine {
 namespace {
@@ -90,6 +91,10 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.mansard.min_depth = std::max(least_strip, depth_of_step * shown);
   o.cuts.min_step = std::max(wanted_step * o.detail, std::min(most_step, seen_step * scan.noise));
   o.bare.noise = std::clamp(on_face * scan.noise, least_robust, most_on_face);
+  if (!std::getenv("NOLEAST")) {
+    const double wide = 2.5 * o.cuts.min_width;
+    o.least_area = std::clamp(points ? numbers_of_part * scan.point_area : wide * wide, 1.0, o.least_area);
+  }
   return o;
 }
 

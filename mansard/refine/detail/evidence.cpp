@@ -23,7 +23,7 @@ Evidence::Evidence(const rays::Scene& mesh, const Options& options) {
   const auto points = mesh.points_in({{-all, -all}, {all, all}});
   const double spacing = std::sqrt(options.samples.point_area);
   reach_ = near_by * spacing;
-  auto found = planes::find(points, {options.samples.noise, options.samples.point_area, options.least_area / 4});
+  auto found = planes::find(points, {options.samples.noise, options.samples.point_area, 1.0});
   const auto box = geometry::Box2::of(points);
   if (points.empty()) return;
   origin_ = box.least;
@@ -87,8 +87,8 @@ void Evidence::leave_out_walls(double spacing) {
   plane_of_.resize(to);
 }
 
-auto Evidence::in(const geometry::Box2& box) const -> std::vector<Point3> {
-  std::vector<Point3> out;
+auto Evidence::in(const geometry::Box2& box) const -> std::vector<Sample> {
+  std::vector<Sample> out;
   if (columns_ == 0) return out;
   const auto index = [](double at, std::size_t count) {
     return static_cast<std::size_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(count)));
@@ -98,20 +98,29 @@ auto Evidence::in(const geometry::Box2& box) const -> std::vector<Point3> {
     for (std::size_t c = index((box.least.x - origin_.x) / reach_, columns_);
          c < index((box.most.x - origin_.x) / reach_ + 1, columns_); ++c)
       for (std::uint32_t i = first_[r * columns_ + c]; i < first_[r * columns_ + c + 1]; ++i)
-        if (box.contains(xy(points_[i]))) out.push_back(points_[i]);
+        if (box.contains(xy(points_[i]))) out.push_back({points_[i], plane_of_[i]});
   return out;
 }
 
-auto Evidence::height_at(Point2 place) const -> std::optional<double> {
+template <class Take>
+auto Evidence::height_by_nearest(Point2 place, Take take) const -> std::optional<double> {
   double least = reach_ * reach_;
   std::optional<std::uint32_t> nearest;
   each_near(place, [&](std::uint32_t i) {
     const Point2 off = xy(points_[i]) - place;
-    if (const double squared = dot(off, off); squared < least) least = squared, nearest = i;
+    if (const double squared = dot(off, off); squared < least && take(points_[i])) least = squared, nearest = i;
   });
   if (!nearest) return std::nullopt;
   const auto plane = plane_of_[*nearest];
   return plane < planes_.size() ? planes_[plane].at(place) : points_[*nearest].z;
+}
+
+auto Evidence::height_at(Point2 place) const -> std::optional<double> {
+  return height_by_nearest(place, [](Point3) { return true; });
+}
+
+auto Evidence::height_at(Point2 place, const geometry::Polygon& over) const -> std::optional<double> {
+  return height_by_nearest(place, [&](Point3 p) { return geometry::contains(over, xy(p)); });
 }
 
 }  // namespace mansard::refine::detail

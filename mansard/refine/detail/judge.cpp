@@ -1,3 +1,4 @@
+#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/judge.hpp"
 
 #include <algorithm>
@@ -50,6 +51,29 @@ auto Judge::loss_at(const View& view, std::size_t sample, double cap) const -> d
   const double roof = view.z_at[sample];  // NaN past the solid, which falls to its base there
   return site_.weight[sample] *
          stray_loss((roof == roof ? std::min(roof, cap) : 0) - site_.z[sample], options_.samples.stray);
+}
+
+auto Judge::reducible_at(const Judged& judged, std::size_t i) const -> double {
+  const double d = judged.view.z_of(site_, i) - site_.z[i];
+  if (d != d) return 0;
+  if (!site_.of_points) return site_.weight[i] * loss(d, options_.robust);
+  const auto plane = site_.plane_of[i];
+  double out = stray_loss(d, options_.samples.stray);
+  if (plane < site_.planes.size())
+    out -= stray_loss(site_.planes[plane].at(site_.places[i]) - site_.base - site_.z[i], options_.samples.stray);
+  return site_.weight[i] * out;
+}
+
+auto Judge::reducible(const Judged& judged) const -> double {
+  if (!site_.of_points) return judged.misfit;
+  double of_none = 0;
+  std::vector<double> by_plane(site_.planes.size(), 0);
+  for (std::size_t i = 0; i < site_.z.size(); ++i) {
+    const auto plane = site_.plane_of[i];
+    (plane < by_plane.size() ? by_plane[plane] : of_none) += reducible_at(judged, i);
+  }
+  for (const double of_plane : by_plane) of_none += std::max(0.0, of_plane);
+  return of_none * site_.sample_area;
 }
 
 auto Judge::with_ceilings(const View& view, double cap, double misfit) const -> double {
@@ -121,10 +145,11 @@ auto Judge::misfit_of(const View& view, double cap, double most, double paid) co
 }
 
 auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
+  prof::Timer prof_timer("judge");
   pay_for(plan);
   constexpr double any = std::numeric_limits<double>::infinity();
   if (auto judged = again(plan, any)) return std::move(*judged);
-  auto sketch = extrude::sketch(plan, raising_, run_);
+  auto sketch = [&] { prof::Timer t("extrude::sketch"); return extrude::sketch(plan, raising_, run_); }();
   if (!sketch) return sketch.error();
   auto judged = of(plan, std::move(*sketch), any);
   if (!judged) return base::error("extrude-no-area", "the roof cannot be compared with the mesh");
@@ -132,12 +157,13 @@ auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
 }
 
 auto Judge::cheaper(const model::Plan& plan, double than) const -> std::optional<Judged> {
+  prof::Timer prof_timer("judge cheaper");
   pay_for(plan);
   const double most = than - options_.same_cost;
   if (known_ && known_->costs_at_least(plan) >= most) return std::nullopt;
   auto judged = again(plan, most);
   if (!judged) {
-    auto sketch = extrude::sketch(plan, raising_, run_);
+    auto sketch = [&] { prof::Timer t("extrude::sketch"); return extrude::sketch(plan, raising_, run_); }();
     if (!sketch) return std::nullopt;
     judged = of(plan, std::move(*sketch), most);
   }

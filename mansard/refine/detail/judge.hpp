@@ -37,8 +37,6 @@ struct Judged {
   std::vector<std::uint32_t> bare;  ///< faces that nothing of the scan speaks for
   double unsupported = 0;           ///< m² · m²: what those pay
   double cost = 0;                  ///< misfit, the price of the faces, and what is unsupported
-  /// m² · m²: what another roof may save at most, beside faces.
-  [[nodiscard]] auto wrong() const -> double { return misfit + unsupported; }
 };
 
 class Judge {
@@ -60,6 +58,14 @@ class Judge {
   /// already may end there.
   [[nodiscard]] auto misfit_of(const View& view, double cap = std::numeric_limits<double>::infinity(),
                                double most = std::numeric_limits<double>::infinity(), double paid = 0) const -> double;
+
+  /// m²·m²: of the misfit, what other planes might explain. Of points, what is left off the planes that the scan itself
+  /// shows is noise, which no roof explains; of a surface, all.
+  [[nodiscard]] auto reducible(const Judged& judged) const -> double;
+  /// The same of one sample, over the area of a sample; it may be negative.
+  [[nodiscard]] auto reducible_at(const Judged& judged, std::size_t sample) const -> double;
+  /// m²·m²: what another roof may save at most, beside faces.
+  [[nodiscard]] auto wrong(const Judged& judged) const -> double { return reducible(judged) + judged.unsupported; }
 
   /// Whether no more roofs are to be asked for, one after the other. Only where no other thread asks.
   [[nodiscard]] auto is_tired() const -> bool {

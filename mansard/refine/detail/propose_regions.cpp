@@ -202,6 +202,11 @@ auto bands_of(const std::vector<double>& levels, const Options& options) -> std:
   return out;
 }
 
+/// Cells: half of the least width, so that what is narrower vanishes.
+auto half_width(const Raster& raster, const Options& options) -> int {
+  return std::max(1, static_cast<int>(std::lround(options.cuts.min_width / 2 / raster.spacing - 0.5)));
+}
+
 }  // namespace
 
 auto shrunk(const Raster& raster, const Mask& mask, double by) -> Mask {
@@ -216,11 +221,22 @@ auto grown(const Raster& raster, const Mask& mask, double by) -> Mask {
   return off;
 }
 
+void leave_out_strays(Raster& raster, const Options& options) {
+  const auto limit = static_cast<float>(options.samples.point_area > 0 ? options.samples.stray : options.robust);
+  for (const float way : {1.0F, -1.0F}) {
+    Mask far(raster.z.size());
+    for (std::size_t k = 0; k < far.size(); ++k)
+      far[k] = raster.state[k] == Cell::seen && way * raster.residual[k] > limit ? 1 : 0;
+    const Mask wide = opened(raster, far, half_width(raster, options));
+    for (std::size_t k = 0; k < far.size(); ++k)
+      if (far[k] && !wide[k]) raster.state[k] = Cell::unseen, raster.z[k] = raster.residual[k] = 0;
+  }
+}
+
 auto regions_of(const Raster& raster, const Options& options) -> std::vector<Region> {
   const auto& o = options.regions;
   const std::vector<float> residual = filled(raster, o.gap_cells);
-  // Half of the least width, so that what is narrower vanishes.
-  const int by = std::max(1, static_cast<int>(std::lround(options.cuts.min_width / 2 / raster.spacing - 0.5)));
+  const int by = half_width(raster, options);
   std::vector<Region> out;
   for (const auto& [low, high] : bands_of(levels_of(raster, residual, options), options)) {
     Mask mask(residual.size());

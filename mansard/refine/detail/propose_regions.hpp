@@ -19,6 +19,10 @@ struct Region {
 /// region runs around something, what it runs around. In an order that depends on the raster only.
 [[nodiscard]] auto regions_of(const Raster& raster, const Options& options) -> std::vector<Region>;
 
+/// What is farther from the model than differences count, and narrower than a structure, is as if it were unseen: strips
+/// along walls that were sampled beside their place, chimneys, cables.
+void leave_out_strays(Raster& raster, const Options& options);
+
 /// The direction of the region's own walls where they agree on one, from how the residual rises at its rim.
 [[nodiscard]] auto own_direction(const Raster& raster, const Region& region, const Options::Regions& options,
                                  Frame& direction) -> bool;

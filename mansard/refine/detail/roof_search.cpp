@@ -1,3 +1,4 @@
+#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/roof_search.hpp"
 
 #include <algorithm>
@@ -64,6 +65,7 @@ auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
 
 /// Moves the planes until that no longer helps.
 auto settle(Judged judged, const Judge& judge) -> Judged {
+  prof::Timer prof_timer("settle");
   for (std::int64_t round = 0; round < judge.options().search.settle_rounds; ++round) {
     const Plan plan = refitted(judged, judge.site(), judge.options());
     if (plan == judged.plan) break;
@@ -105,17 +107,15 @@ auto misfit_by_side(const Judged& judged, const Judge& judge) -> std::vector<dou
   const auto& site = judge.site();
   std::vector<double> out(judged.plan.profiles.size(), 0);
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
-    const double difference = std::abs(judged.view.z_of(site, i) - site.z[i]);
-    if (std::isnan(difference)) continue;
     if (const auto nearest = nearest_eaves(edges, site.places[i]))
-      out[nearest->profile] +=
-          site.weight[i] * difference * std::min(difference, judge.options().robust) * site.sample_area;
+      out[nearest->profile] += judge.reducible_at(judged, i) * site.sample_area;
   }
   return out;
 }
 
 /// One edge after the other, the longest first: whatever it carries better is taken.
 auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
+  prof::Timer prof_timer("descend");
   const auto most_sides = static_cast<std::size_t>(judge.options().search.max_sides);
   const auto sides = sides_of(judged.plan);
   std::vector<std::size_t> order;
@@ -209,7 +209,7 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   Judged best = std::move(*start);
   const auto before = best.plan;
   const double misfit = best.misfit;
-  if (best.wrong() < faces_apart) return best;
+  if (judge.wrong(best) < faces_apart) return best;
 
   if (search == Search::settled) return settle(std::move(best), judge);
   std::vector<Judged> starts;
@@ -232,7 +232,7 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   for (auto& judged : starts)
     if (cheaper(judged.cost, best.cost, judge.options().same_cost)) best = std::move(judged);
   if (search == Search::quick || best.cost > options.hopeless * worth) return best;
-  for (std::int64_t round = 0; round < options.rounds; ++round) {
+  for (std::int64_t round = 0; round < options.rounds && judge.wrong(best) >= faces_apart; ++round) {
     const double cost = best.cost;
     best = settle(descend(std::move(best), draft, judge), judge);
     if (best.cost - best.unsupported > worth) return best;

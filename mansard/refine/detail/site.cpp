@@ -1,3 +1,4 @@
+#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/site.hpp"
 
 #include <algorithm>
@@ -135,6 +136,7 @@ class Inside {
 struct Measured {
   Point2 place;
   double z = 0;
+  std::uint32_t plane = planes::Found::none;
 };
 
 void add_points(Site& site, std::span<const Measured> points, const Options& options) {
@@ -143,12 +145,13 @@ void add_points(Site& site, std::span<const Measured> points, const Options& opt
   const Inside inside(site.polygon, site.measured);
   // The nearest edge is looked for where there is one: no point is farther from its cell's centre than a spacing.
   const auto beside = cells_near(site.polygon, options.margin + site.measured.spacing, site.measured);
-  for (const auto& [place, z] : points) {
+  for (const auto& [place, z, plane] : points) {
     const auto cell = inside(place);
     if (!cell) continue;
     site.cells.push_back(*cell);
     site.places.push_back(place);
     site.z.push_back(z);
+    site.plane_of.push_back(plane);
     const bool in_margin = beside[*cell] != 0 && geometry::boundary_distance(site.polygon, place) < options.margin;
     site.weight.push_back(in_margin ? options.samples.margin_weight : 1);
   }
@@ -243,7 +246,7 @@ auto height_at(Point2 place, double base, const rays::Scene& mesh, const Evidenc
 
 auto measured_over(const Polygon& polygon, double base, const Evidence& evidence) -> std::vector<Measured> {
   std::vector<Measured> out;
-  for (const Point3 p : evidence.in(geometry::bounds(polygon.outer))) out.push_back({xy(p), p.z - base});
+  for (const auto& [p, plane] : evidence.in(geometry::bounds(polygon.outer))) out.push_back({xy(p), p.z - base, plane});
   return out;
 }
 
@@ -251,14 +254,20 @@ auto measured_over(const Polygon& polygon, double base, const Evidence& evidence
 
 auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Options& options, const Evidence* points)
     -> Site {
+  prof::Timer prof_timer("look");
   Site site = unseen_over(polygon, base, spacing_over(polygon, options));
   auto& grid = site.measured;
+  // What lies beyond the outline says nothing of the roof.
+  const auto rim = points == nullptr ? std::vector<char>{} : cells_near(polygon, points->reach(), grid);
   each_inside(polygon, grid, [&](std::size_t column, std::size_t row) {
-    if (const auto z = height_at(grid.centre(column, row), base, mesh, points))
-      grid.z[row * grid.columns + column] = *z - base;
+    const std::size_t cell = row * grid.columns + column;
+    const bool at_rim = !rim.empty() && rim[cell] != 0;
+    const auto z = at_rim ? points->height_at(grid.centre(cell), polygon) : height_at(grid.centre(cell), base, mesh, points);
+    if (z) grid.z[cell] = *z - base;
   });
   if (points == nullptr) finish(site, options);
   else add_points(site, measured_over(polygon, base, *points), options);
+  if (points != nullptr) site.planes = points->planes();
   return site;
 }
 
@@ -267,19 +276,21 @@ namespace {
 auto points_of(const Site& site) -> std::vector<Measured> {
   std::vector<Measured> out;
   out.reserve(site.z.size());
-  for (std::size_t i = 0; i < site.z.size(); ++i) out.push_back({site.places[i], site.z[i]});
+  for (std::size_t i = 0; i < site.z.size(); ++i) out.push_back({site.places[i], site.z[i], site.plane_of[i]});
   return out;
 }
 
 }  // namespace
 
 auto crop(const Site& site, const Polygon& piece, const Options& options) -> Site {
+  prof::Timer prof_timer("crop");
   Site out = unseen_over(piece, site.base, site.measured.spacing);
   auto& grid = out.measured;
   const Cells cells(site.measured, grid);
   each_inside(piece, grid, [&](std::size_t column, std::size_t row) {
     if (const auto other = cells.of(column, row)) grid.z[row * grid.columns + column] = site.measured.z[*other];
   });
+  out.planes = site.planes;
   if (site.of_points) add_points(out, points_of(site), options);
   else finish(out, options);
   return out;
@@ -287,6 +298,7 @@ auto crop(const Site& site, const Polygon& piece, const Options& options) -> Sit
 
 auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene& mesh, const Options& options,
             const Evidence* points) -> Site {
+  prof::Timer prof_timer("merged");
   Site out = unseen_over(both, a.base, spacing_over(both, options));
   auto& grid = out.measured;
   if (a.measured.spacing != grid.spacing || b.measured.spacing != grid.spacing)
@@ -301,6 +313,7 @@ auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene
   });
   if (points == nullptr) finish(out, options);
   else add_points(out, measured_over(both, a.base, *points), options);
+  out.planes = a.planes;
   return out;
 }
 
@@ -313,6 +326,7 @@ auto without(const Site& site, const std::function<bool(Point2)>& taken, const O
     finish(out, options);
     return out;
   }
+  out.planes = site.planes;
   auto points = points_of(site);
   std::erase_if(points, [&](const Measured& point) { return taken(point.place); });
   add_points(out, points, options);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct Site {
   std::vector<double> sorted;  ///< the heights
   double sample_area = 0;      ///< m²; that each stands for
   bool of_points = false;
+  std::vector<std::uint32_t> plane_of;    ///< of points: the plane that each is on, or none
+  std::span<const planes::Plane> planes;  ///< of all points; their heights are not above the base
 
   Kernel kernel;  ///< by which the scan smooths, on this grid
   /// Per cell of the grid: 0 outside the polygon, else the factor that makes a sum of `blurred` a mean of what is

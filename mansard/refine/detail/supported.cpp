@@ -1,3 +1,4 @@
+#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/supported.hpp"
 
 #include <algorithm>
@@ -99,6 +100,7 @@ auto without(const Judged& judged, std::uint32_t bare, const Judge& judge) -> st
 }  // namespace
 
 auto supported(Judged judged, const Judge& judge) -> Judged {
+  prof::Timer prof_timer("supported");
   if (judge.site().sorted.empty()) return judged;
   std::vector<std::optional<model::Provenance>> tried;  // a cap has none
   bool changed = false;

@@ -1,7 +1,10 @@
+#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/work.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <utility>
 
@@ -64,6 +67,7 @@ auto Work::both_of(const Piece& a, const Piece& b, const geometry::Polygon& both
 /// `worth`: dearer roofs are of no interest.
 auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search, double worth,
                   std::shared_ptr<KnownRoofs> known) const -> base::Result<Piece> {
+  prof::Timer prof_timer(search == Search::quick ? "roofed quick" : search == Search::settled ? "roofed settled" : "roofed thorough");
   std::vector<std::string> changes;
   if (!known) known = std::make_shared<KnownRoofs>();
   auto roof = best_roof(draft, judge_of(site, known.get()), search, worth, changes);
@@ -82,10 +86,11 @@ auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search
 
 /// The pieces that are cheaper together than the one, if there are.
 auto Work::split(const Piece& piece) const -> std::vector<Piece> {
+  prof::Timer prof_timer("split");
   constexpr double fewest_faces = 4;  // a tetrahedron's: no solid has fewer
   const double least_gain =
       std::max(options_.part_price + fewest_faces * options_.face_price, worth_a_cut * piece.roof.misfit);
-  if (run_.cancelled() || piece.roof.misfit < least_gain) return {};
+  if (run_.cancelled() || judge_of(piece.site).reducible(piece.roof) < least_gain) return {};
   auto pieces = cut_within(piece, least_gain, piece.roof.cost);
   return pieces.empty() ? into_wings(piece, least_gain) : pieces;
 }
@@ -106,6 +111,7 @@ auto Work::may_cut_anew(const Piece& a, const Piece& b) const -> bool {
 
 /// Where two pieces meet in the wrong place: both as one, cut anew, if that is cheaper.
 auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> std::vector<Piece> {
+  prof::Timer prof_timer("cut_anew");
   const double least_gain = options_.part_price;
   const Piece one{
       std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, both.roof, std::nullopt, {}};
@@ -122,6 +128,7 @@ auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> 
 
 /// Of the proposed cuts the one whose pieces cost least, if that is less than they are worth.
 auto Work::cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece> {
+  prof::Timer prof_timer("cut_within");
   account_->add(work_of_cut * piece.site.cells.size());
   Heights model = piece.site.measured, measured = piece.site.measured;
   model.z = piece.roof.view.z;
@@ -148,6 +155,7 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
   });
   std::erase_if(trials, [](const Trial& trial) { return trial.pieces.empty(); });
   rank(trials, &Trial::cost, options_.same_cost);
+  if (std::getenv("TRACE")) { std::fprintf(stderr, " cheapest of %zu, worth %.4f now %.4f (misfit %.4f):\n", proposals.size(), worth, piece.roof.cost, piece.roof.misfit); for (auto& t : trials) std::fprintf(stderr, "   trial cost %.4f pieces %zu area %.1f %s\n", t.cost, t.pieces.size(), geometry::area(t.proposal->polygon), t.proposal->what.c_str()); }
   const auto needles = [this](const std::vector<Piece>& pieces) {
     return std::ranges::any_of(pieces,
                                [this](const Piece& one) { return is_needle(one.site, one.roof, mesh_, options_); });
@@ -162,6 +170,7 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
 
 /// The same of the cuts between wings, those with most misfit about them.
 auto Work::into_wings(const Piece& piece, double least_gain) const -> std::vector<Piece> {
+  prof::Timer prof_timer("into_wings");
   struct Promising {
     WingLine line;
     double about = 0;  // m²·m²
@@ -198,6 +207,7 @@ auto Work::misfit_about(const Piece& piece, geometry::Point2 place, double withi
 
 /// Both under one roof, where their grounds make one polygon.
 auto Work::united(const Piece& a, const Piece& b) const -> std::optional<Union> {
+  prof::Timer prof_timer("united");
   auto polygon = joined(a.site.polygon, b.site.polygon, options_);
   if (!polygon) return std::nullopt;
   Site site = both_of(a, b, *polygon);
@@ -210,6 +220,7 @@ auto Work::united(const Piece& a, const Piece& b) const -> std::optional<Union> 
 
 /// The same where that is cheaper.
 auto Work::as_one(const Piece& a, const Piece& b, const Union& both) const -> std::optional<Piece> {
+  prof::Timer prof_timer("as_one");
   const double worth = cost_of(a, b);
   if (both.roof.cost >= options_.joins.quick_excess * worth) return std::nullopt;
   auto made = roofed(std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, Search::thorough,
@@ -225,12 +236,13 @@ auto Work::as_one(const Piece& a, const Piece& b, const Union& both) const -> st
 /// m²·m²: of the squared differences above a step, those along the other's ground.
 auto Work::misfit_near(const Piece& piece, const geometry::Polygon& other) const -> double {
   const auto& site = piece.site;
+  const Judge judge = judge_of(site);
   double sum = 0;
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     const double d = std::abs(piece.roof.view.z_of(site, i) - site.z[i]);
     if (!(d > options_.cuts.min_step)) continue;
     if (geometry::boundary_distance(other, site.places[i]) < options_.joins.recut_reach)
-      sum += d * std::min(d, options_.robust);
+      sum += site.of_points ? judge.reducible_at(piece.roof, i) : d * std::min(d, options_.robust);
   }
   return sum * site.sample_area;
 }
@@ -261,6 +273,7 @@ auto Work::cost_of_faces(const geometry::Polygon& polygon) const -> double {
 
 /// The pieces of a cut, each with a roof found quickly; none where they cost more than they are worth.
 auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) const -> std::vector<Piece> {
+  prof::Timer prof_timer("tried");
   std::vector<Piece> out;
   double left = worth;
   const Origin origin[]{{piece.draft, piece.roof.plan}};
@@ -273,11 +286,12 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
     const auto too_high = too_high_over(site, piece.site.measured, piece.roof.view.z);
     if (site.cells.empty() && too_high == 0) return {};
     const double known = site.seen_area() + site.cell_area * static_cast<double>(too_high);
-    if (known < options_.pieces.seen_share * geometry::area(polygon)) return {};
+    if (known < options_.pieces.seen_share * geometry::area(polygon)) { if (std::getenv("TRACE")) std::fprintf(stderr, "    tried: unseen\n"); return {}; }
     Draft draft = draft_of(origin, site, options_);
     const bool rest = out.empty() && !proposal.whole_side;  // its roof was found before; a little of it is gone
     const Search search = rest ? Search::settled : Search::quick;
     auto made = roofed(piece.draft_index, std::move(site), std::move(draft), search, left);
+    if (std::getenv("TRACE")) std::fprintf(stderr, "    tried %s %.1f of %.1f: %s cost %.3f misfit %.3f left %.3f\n", proposal.what.c_str(), geometry::area(polygon), geometry::area(piece.site.polygon), made ? "made" : made.error().message.c_str(), made ? made->roof.cost : 0, made ? made->roof.misfit : 0, left);
     if (!made) return {};
     left -= made->roof.cost + (out.empty() ? 0 : options_.part_price);
     fewest -= cost_of_faces(polygon) + (out.empty() ? 0 : options_.part_price);
@@ -297,6 +311,7 @@ auto seen_over(const Judged& roof, const Site& site) -> Judged {
 /// The roof was fitted to what stands on it, too: looked for again without that, until roof and dormers together cost
 /// no less. None where nothing stands on it, or that costs more than `most`.
 auto Work::beside_dormers(const Piece& piece, double most) const -> std::optional<Piece> {
+  prof::Timer prof_timer("beside_dormers");
   struct Found {
     Judged roof;
     Site without;
@@ -364,11 +379,12 @@ auto Work::dormers_of(const Judged& roof, const Site& all) const -> std::pair<st
 }
 
 auto Work::finished(Piece piece) const -> Piece {
+  prof::Timer prof_timer("finished");
   if (piece.site.cells.empty() && !piece.site.ceilings.empty())
     piece.changes.push_back("the crown of a tree hides it: its height, " + base::to_text(piece.roof.plan.cap, 1) +
                             " m, is a guess");
   const bool keep = options_.effort == Effort::caps || piece.site.cells.empty() ||
-                    piece.roof.wrong() < options_.face_price || run_.cancelled();
+                    judge_of(piece.site).wrong(piece.roof) < options_.face_price || run_.cancelled();
   if (keep) return piece;
   const auto in_full = [&](const Judged& roof) -> std::optional<extrude::Raised> {
     auto raised = extrude::raise(roof.plan, raising_, run_);
@@ -428,6 +444,7 @@ auto Work::with_roof(const Piece& piece, const model::Plan& plan, double most) c
 /// The same pieces searched thoroughly; none where a sketch is one that no solid can be made of.
 auto Work::searched(const Piece& piece, const Proposal& proposal, std::vector<Piece> pieces) const
     -> std::vector<Piece> {
+  prof::Timer prof_timer("searched");
   double cost = options_.part_price * (static_cast<double>(pieces.size()) - 1);
   for (const auto& one : pieces) cost += one.roof.cost;
   const auto before_and_after =

@@ -44,6 +44,9 @@ auto spread(const Ring& ring, double area, const Options& options) -> std::vecto
 /// roof: the others may be of what is beside it.
 constexpr double enough = 0.25;
 
+/// Three make a plane.
+constexpr std::ptrdiff_t fewest_points = 3;
+
 /// m: what the face is taken for, and what it reaches where the scan shows what is beside it, too.
 struct Seen {
   double height = 0, reached = 0;
@@ -131,14 +134,14 @@ auto measure(const fracture::Arrangement& arrangement, const block::Block& block
       if (options.rim > 0 && geometry::boundary_distance({ring, {}}, p) >= options.rim) clear.push_back(z);
     };
     const auto measured = options.by_points ? points_over(ring, mesh) : std::vector<geometry::Point3>();
-    const bool by_points = std::ssize(measured) >= static_cast<std::int64_t>(options.minimum_samples);
-    if (by_points)
+    // Fewer may all be of what is beside the face; between them nothing was measured.
+    if (std::ssize(measured) >= fewest_points)
       for (const auto p : measured) take(xy(p), p.z);
     for (const Point2 p : points) {
       bool in = false;
       for (std::size_t i = 0; i < near.size(); ++i)
         if (is_in(members[near[i]], p)) ++hits[i], in = true;
-      if (!by_points)
+      if (!options.by_points)
         if (const auto z = mesh.top(p)) take(p, *z);
       if (in) ++inside;
     }
