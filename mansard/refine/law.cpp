@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace mansard::refine {
 namespace {
@@ -11,6 +10,9 @@ namespace {
 /// is an outline of its own: a position and a direction of four sides, where both ends of each begin, and which of its
 /// sides carry roof.
 constexpr double numbers_of_face = 3, numbers_of_part = 20;
+
+/// Samples for each number of a structure, and m²: what is smaller is no part, however exact the scan.
+constexpr double samples_of_number = 3, least_structure = 1;
 
 /// m²: the ground that one number is fitted to, for n = F / A in ½ ln n: a roof plane of a house. It counts by its
 /// logarithm.
@@ -91,10 +93,9 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.mansard.min_depth = std::max(least_strip, depth_of_step * shown);
   o.cuts.min_step = std::max(wanted_step * o.detail, std::min(most_step, seen_step * scan.noise));
   o.bare.noise = std::clamp(on_face * scan.noise, least_robust, most_on_face);
-  if (!std::getenv("NOLEAST")) {
-    const double wide = 2.5 * o.cuts.min_width;
-    o.least_area = std::clamp(points ? numbers_of_part * scan.point_area : wide * wide, 1.0, o.least_area);
-  }
+  // A structure is shown where there are some samples for each of its numbers, and where it is wider than its edges.
+  const double sample = points ? scan.point_area : between * between, side = width_of_side / width_of_part * width_of_side * shown;
+  o.least_area = std::min(o.least_area, std::max({least_structure, samples_of_number * numbers_of_part * sample, side * side}));
   return o;
 }
 

@@ -39,6 +39,20 @@ auto is_sound(const base::Result<extrude::Raised>& raised) -> bool {
          std::ranges::none_of(raised->warnings, [](const auto& warning) { return warning.code == "extrude-nudged"; });
 }
 
+/// Whether most points over a piece lie on its roof: of crowns, and of gaps through which some see the ground, few do.
+auto is_of_roof(const Piece& piece, const Options& options) -> bool {
+  constexpr double most = 0.6;
+  const Site& site = piece.site;
+  if (!site.of_points) return true;
+  std::size_t on = 0, clear = 0;
+  for (std::size_t i = 0; i < site.z.size(); ++i) {
+    if (site.weight[i] < 1) continue;
+    ++clear;
+    if (std::abs(piece.roof.view.z_of(site, i) - site.z[i]) <= 2 * options.lines.robust) ++on;
+  }
+  return static_cast<double>(on) >= most * static_cast<double>(clear);
+}
+
 }  // namespace
 
 auto Work::look(const geometry::Polygon& polygon, double base) const -> Site {
@@ -293,6 +307,7 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
     auto made = roofed(piece.draft_index, std::move(site), std::move(draft), search, left);
     if (std::getenv("TRACE")) std::fprintf(stderr, "    tried %s %.1f of %.1f: %s cost %.3f misfit %.3f left %.3f\n", proposal.what.c_str(), geometry::area(polygon), geometry::area(piece.site.polygon), made ? "made" : made.error().message.c_str(), made ? made->roof.cost : 0, made ? made->roof.misfit : 0, left);
     if (!made) return {};
+    if (!out.empty() && !proposal.whole_side && !is_of_roof(*made, options_)) return {};
     left -= made->roof.cost + (out.empty() ? 0 : options_.part_price);
     fewest -= cost_of_faces(polygon) + (out.empty() ? 0 : options_.part_price);
     if (left - fewest <= options_.same_cost) return {};
