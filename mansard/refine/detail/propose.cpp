@@ -156,8 +156,9 @@ void consider_lines(const Polygon& part, const carve::Raster& raster, bool acros
 }
 
 void consider_regions(const Polygon& part, const carve::Raster& raster, const carve::Raster& turned,
-                      const Options& options, Cuts& cuts, std::vector<carve::Frame>& directions) {
-  for (const carve::Region& region : carve::regions_of(raster, options)) {
+                      const std::vector<carve::Region>& regions, const Options& options, Cuts& cuts,
+                      std::vector<carve::Frame>& directions) {
+  for (const carve::Region& region : regions) {
     int shape = 0;
     for (const Polygon& outline : carve::outlines_of(raster, turned, region, options)) {
       const auto pieces = carve::pieces_in_part(part, outline, raster.frame, options.pieces);
@@ -294,7 +295,8 @@ auto at_steps(const Polygon& part, const Polygon& piece, const Heights& measured
 }
 
 auto propose(const Polygon& part, const Heights& measured, const Heights& model, double least_gain,
-             const Options& options) -> std::vector<Proposal> {
+             const Options& options, std::span<const geometry::Point2> places, std::span<const std::uint32_t> planes)
+    -> std::vector<Proposal> {
   prof::Timer prof_timer("propose");
   const std::size_t cells = measured.columns * measured.rows;
   if (part.outer.size() < 3 || cells == 0 || !(measured.spacing > 0)) return {};
@@ -313,7 +315,9 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   for (std::size_t d = 0; d < directions.size(); ++d) {
     const carve::Raster raster = seen_along(measured, model, directions[d]);
     const carve::Raster turned = carve::turned(raster);
-    consider_regions(part, raster, turned, options, cuts, directions);
+    const auto regions = places.empty() ? carve::regions_of(raster, options)
+                                        : carve::regions_of_planes(raster, places, planes, least_gain, options);
+    consider_regions(part, raster, turned, regions, options, cuts, directions);
     consider_lines(part, raster, false, least_gain, options, cuts);
     consider_lines(part, turned, true, least_gain, options, cuts);
   }

@@ -2,7 +2,9 @@
 // into it, and straight lines between two roofs. Pure geometry: what a cut is worth in full only raising can tell.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,7 +35,9 @@ struct Proposal {
 /// Cost: cells × directions (two or three), with small constants.
 /// Measured and model share one grid; cells that are NaN in either count for nothing. `least_gain`, m²·m²: squared
 /// residual, summed over area, that a cut must explain.
+/// `places`, `planes`: of a scan that consists of points, where each is and the plane that it is on.
 [[nodiscard]] auto propose(const geometry::Polygon& part, const Heights& measured, const Heights& model,
-                           double least_gain, const Options& options) -> std::vector<Proposal>;
+                           double least_gain, const Options& options, std::span<const geometry::Point2> places = {},
+                           std::span<const std::uint32_t> planes = {}) -> std::vector<Proposal>;
 
 }  // namespace mansard::refine::detail

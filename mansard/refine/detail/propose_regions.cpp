@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <map>
 
 #include "mansard/base/disjoint_sets.hpp"
 #include "mansard/geometry/angles.hpp"
@@ -254,6 +255,45 @@ auto regions_of(const Raster& raster, const Options& options) -> std::vector<Reg
         rest[k] = raster.state[k] != Cell::outside && !out[i].mask[k] ? 1 : 0;
       add_components(raster, opened(raster, rest, by), options.least_area, o.seen_share, out);
     }
+  }
+  return out;
+}
+
+auto regions_of_planes(const Raster& raster, std::span<const geometry::Point2> places,
+                       std::span<const std::uint32_t> planes, double least_gain, const Options& options)
+    -> std::vector<Region> {
+  constexpr std::uint32_t none = UINT32_MAX;
+  std::vector<std::uint32_t> label(raster.z.size(), none);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const geometry::Point2 at = raster.frame.to(places[i]);
+    const auto column = static_cast<int>(std::lround((at.x - raster.least.x) / raster.spacing)),
+               row = static_cast<int>(std::lround((at.y - raster.least.y) / raster.spacing));
+    if (raster.inside(column, row) && label[raster.at(column, row)] == none) label[raster.at(column, row)] = planes[i];
+  }
+  // Between points, the plane of a point near by.
+  const auto passes = static_cast<int>(std::ceil(std::sqrt(options.samples.point_area) / raster.spacing));
+  for (int pass = 0; pass < passes; ++pass) {
+    const auto before = label;
+    for (int j = 0; j < raster.rows; ++j)
+      for (int i = 0; i < raster.columns; ++i) {
+        if (!raster.inside(i, j) || before[raster.at(i, j)] != none) continue;
+        for (const auto& [di, dj] : {std::pair{0, 1}, {1, 0}, {0, -1}, {-1, 0}})
+          if (raster.inside(i + di, j + dj) && before[raster.at(i + di, j + dj)] != none) {
+            label[raster.at(i, j)] = before[raster.at(i + di, j + dj)];
+            break;
+          }
+      }
+  }
+  std::map<std::uint32_t, double> off;
+  for (std::size_t k = 0; k < label.size(); ++k)
+    if (label[k] < none - 1 && raster.state[k] == Cell::seen)
+      off[label[k]] += static_cast<double>(raster.residual[k]) * raster.residual[k] * raster.cell_area();
+  std::vector<Region> out;
+  for (const auto& [plane, gain] : off) {
+    if (gain < least_gain) continue;
+    Mask mask(label.size());
+    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = label[k] == plane ? 1 : 0;
+    add_components(raster, opened(raster, mask, 1), options.regions.min_area_share * options.least_area, 0, out);
   }
   return out;
 }

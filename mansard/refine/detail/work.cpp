@@ -149,7 +149,9 @@ auto Work::cut_within(const Piece& piece, double least_gain, double worth) const
   // Where the roof is above the crown that hides it, that is known.
   for (const auto& [cell, ceiling] : piece.site.ceilings)
     if (model.z[cell] > ceiling) measured.z[cell] = ceiling;
-  return cheapest(piece, propose(piece.site.polygon, measured, model, least_gain, options_), worth);
+  return cheapest(piece, propose(piece.site.polygon, measured, model, least_gain, options_, piece.site.of_points ? std::span<const geometry::Point2>(piece.site.places) : std::span<const geometry::Point2>(),
+                                  piece.site.plane_of),
+                  worth);
 }
 
 auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, double worth) const
