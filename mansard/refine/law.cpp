@@ -94,8 +94,10 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.cuts.min_step = std::max(wanted_step * o.detail, std::min(most_step, seen_step * scan.noise));
   o.bare.noise = std::clamp(on_face * scan.noise, least_robust, most_on_face);
   // A structure is shown where there are some samples for each of its numbers, and where it is wider than its edges.
-  const double sample = points ? scan.point_area : between * between, side = width_of_side / width_of_part * width_of_side * shown;
-  o.least_area = std::min(o.least_area, std::max({least_structure, samples_of_number * numbers_of_part * sample, side * side}));
+  const double sample = points ? scan.point_area : between * between,
+               side = width_of_side / width_of_part * width_of_side * shown;
+  o.least_area =
+      std::min(o.least_area, std::max({least_structure, samples_of_number * numbers_of_part * sample, side * side}));
   return o;
 }
 

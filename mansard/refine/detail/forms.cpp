@@ -1,9 +1,7 @@
-#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/forms.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -15,6 +13,7 @@
 #include "mansard/refine/detail/judge.hpp"
 #include "mansard/refine/detail/lines.hpp"
 #include "mansard/refine/detail/order.hpp"
+#include "mansard/refine/detail/sides_by_planes.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -45,42 +44,6 @@ void consider(std::optional<Nearest>& nearest, Nearest other) {
   if (!nearest || other.inward < nearest->inward - same_distance) nearest = other;
 }
 
-/// Samples, evenly chosen, and the edges in whose strips they are: of every form the same.
-class Strips {
- public:
-  Strips(const Plan& plan, const Site& site, const Options::Forms& options) : site_(site) {
-    const std::size_t stride = 1 + site.cells.size() / static_cast<std::size_t>(options.samples);
-    const auto edges = eaves_of(plan, std::vector<bool>(plan.profiles.size(), true));
-    for (std::size_t i = 0; i < site.cells.size(); i += stride) {
-      for (const Eaves& edge : edges)
-        if (const auto inward = inward_in_strip(edge, site.places[i])) edges_.push_back({edge.profile, *inward});
-      samples_.push_back({i, edges_.size()});
-    }
-  }
-
-  /// Heights over the distance from the sides that carry roof.
-  [[nodiscard]] auto looks_at(const std::vector<bool>& carries) const -> std::vector<Look> {
-    std::vector<Look> looks;
-    looks.reserve(samples_.size());
-    std::size_t edge = 0;
-    for (const auto& [i, end] : samples_) {
-      std::optional<Nearest> nearest;
-      for (; edge < end; ++edge)
-        if (carries[edges_[edge].profile]) consider(nearest, edges_[edge]);
-      if (nearest) looks.push_back({nearest->inward, site_.z[i], site_.weight[i]});
-    }
-    return looks;
-  }
-
- private:
-  struct Sample {
-    std::size_t index = 0, end = 0;  // of the site; where its edges end
-  };
-  const Site& site_;
-  std::vector<Nearest> edges_;
-  std::vector<Sample> samples_;
-};
-
 /// m: of a profile at a distance from its edge.
 auto height_at(const Profile& profile, double inward) -> double {
   double height = profile.back().height;
@@ -94,13 +57,74 @@ auto height_at(const Profile& profile, double inward) -> double {
   return height;
 }
 
+/// m²·m²: of all samples, by the mean of some.
+auto of_all(double sum, std::size_t count, const Site& site) -> double {
+  return sum / static_cast<double>(std::max<std::size_t>(1, count)) * static_cast<double>(site.cells.size()) *
+         site.sample_area;
+}
+
+/// Samples, evenly chosen, and the edges in whose strips they are: of every form the same.
+class Strips {
+ public:
+  Strips(const Plan& plan, const Site& site, const Options::Forms& options) : site_(site) {
+    const std::size_t stride = 1 + site.cells.size() / static_cast<std::size_t>(options.samples);
+    const auto edges = eaves_of(plan, std::vector<bool>(plan.profiles.size(), true));
+    for (std::size_t i = 0; i < site.cells.size(); i += stride) {
+      for (const Eaves& edge : edges)
+        if (const auto inward = inward_in_strip(edge, site.places[i])) edges_.push_back({edge.profile, *inward});
+      samples_.push_back({i, edges_.size()});
+    }
+  }
+
+  /// m²·m²: of a roof whose sides are not alike.
+  [[nodiscard]] auto misfit_of(const SidesByPlanes& roof, const Options& options) const -> double {
+    double sum = 0;
+    std::size_t count = 0;
+    each_nearest(roof.carries, [&](const Nearest& nearest, std::size_t i) {
+      const double height = height_at(roof.plan.profiles[nearest.profile], nearest.inward);
+      sum += site_.weight[i] * loss(std::min(roof.plan.cap, height) - site_.z[i], options.robust);
+      ++count;
+    });
+    return of_all(sum, count, site_);
+  }
+
+  /// Heights over the distance from the sides that carry roof.
+  [[nodiscard]] auto looks_at(const std::vector<bool>& carries) const -> std::vector<Look> {
+    std::vector<Look> looks;
+    looks.reserve(samples_.size());
+    each_nearest(carries, [&](const Nearest& nearest, std::size_t i) {
+      looks.push_back({nearest.inward, site_.z[i], site_.weight[i]});
+    });
+    return looks;
+  }
+
+ private:
+  /// Calls see(nearest, i) for every sample in the strip of a side that carries roof.
+  template <class See>
+  void each_nearest(const std::vector<bool>& carries, See see) const {
+    std::size_t edge = 0;
+    for (const auto& [i, end] : samples_) {
+      std::optional<Nearest> nearest;
+      for (; edge < end; ++edge)
+        if (carries[edges_[edge].profile]) consider(nearest, edges_[edge]);
+      if (nearest) see(*nearest, i);
+    }
+  }
+
+  struct Sample {
+    std::size_t index = 0, end = 0;  // of the site; where its edges end
+  };
+  const Site& site_;
+  std::vector<Nearest> edges_;
+  std::vector<Sample> samples_;
+};
+
 /// m²·m²: that of the samples, as if they were all there are.
 template <class Height>
 auto misfit_of(std::span<const Look> looks, const Site& site, const Options& options, Height height) -> double {
   double sum = 0;
   for (const Look& look : looks) sum += look.weight * loss(height(look) - look.height, options.robust);
-  return sum / static_cast<double>(std::max<std::size_t>(1, looks.size())) * static_cast<double>(site.cells.size()) *
-         site.sample_area;
+  return of_all(sum, looks.size(), site);
 }
 
 /// The one line that suits all sides that carry roof.
@@ -218,84 +242,6 @@ auto ends_of(const Plan& plan, const std::vector<Side>& sides, const Options::Fo
   return ends;
 }
 
-/// The sides as the planes of the points have them: of each the planes that rise from it, the steeper ones below; a
-/// wall where none does. Each side has a pitch and eaves of its own; a roof of unlike sides is found at once.
-class FromPlanes {
- public:
-  FromPlanes(const Plan& plan, const std::vector<Side>& sides, const Site& site, const Options& options)
-      : plan_(plan), sides_(sides), site_(site), options_(options) {}
-
-  [[nodiscard]] auto profiles() const -> std::vector<std::optional<Profile>> {
-    const auto edges = eaves_of(plan_, std::vector<bool>(sides_.size(), true));
-    std::vector<std::vector<Support>> supports(sides_.size());
-    for (std::size_t i = 0; i < site_.cells.size(); ++i) {
-      const auto plane = site_.plane_of[i];
-      if (plane >= site_.planes.size()) continue;
-      const Point2 slope = site_.planes[plane].slope;
-      const double rise = length(slope);
-      if (rise < options_.forms.min_slope || rise > options_.forms.max_slope) continue;
-      for (const Eaves& edge : edges) {
-        const Point2 inward = geometry::left_of(edge.along);
-        if (dot(slope, inward) < facing * rise) continue;
-        const Point2 off = site_.places[i] - edge.start;
-        const double t = dot(off, edge.along), d = dot(off, inward);
-        if (d < 0 || t < 0 || t > edge.length) continue;
-        add(supports[edge.profile], plane, d, edge);
-      }
-    }
-    std::vector<std::optional<Profile>> out;
-    for (auto& of_side : supports) out.push_back(profile_of(std::move(of_side)));
-    return out;
-  }
-
- private:
-  static constexpr double facing = 0.985;  // cosine of 10°
-  struct Support {
-    std::uint32_t plane = 0;
-    double count = 0, inward = 0;  // samples, and the sum of their distances from the edge
-    double at_edge = 0, slope = 0;
-  };
-
-  void add(std::vector<Support>& supports, std::uint32_t plane, double d, const Eaves& edge) const {
-    auto known = std::ranges::find(supports, plane, &Support::plane);
-    if (known == supports.end()) {
-      const auto& p = site_.planes[plane];
-      const Point2 inward = geometry::left_of(edge.along);
-      supports.push_back({plane, 0, 0, p.at(edge.start + 0.5 * edge.length * edge.along) - site_.base, dot(p.slope, inward)});
-      known = std::prev(supports.end());
-    }
-    known->count += 1;
-    known->inward += d;
-  }
-
-  /// The nearest plane, and of those behind it the first that continues it: less steep, meeting it in between.
-  [[nodiscard]] auto profile_of(std::vector<Support> supports) const -> std::optional<Profile> {
-    const double fewest = std::max(static_cast<double>(options_.lines.min_samples), 1.0 / site_.sample_area);
-    std::erase_if(supports, [&](const Support& s) { return s.count < fewest || !(s.at_edge > 0); });
-    if (supports.empty()) return std::nullopt;
-    std::ranges::stable_sort(supports, {}, [](const Support& s) { return s.inward / s.count; });
-    const Support& foot = supports.front();
-    Profile out{{0, 0}, {0, foot.at_edge}};
-    for (std::size_t i = 1; i < supports.size(); ++i) {
-      const Support& next = supports[i];
-      if (next.slope > 0.9 * foot.slope) continue;
-      const double knot = (next.at_edge - foot.at_edge) / (foot.slope - next.slope);
-      if (knot < foot.inward / foot.count || knot > next.inward / next.count) continue;
-      const double height = foot.at_edge + foot.slope * knot;
-      out.push_back({knot, height});
-      out.push_back({knot + 1, height + next.slope});
-      return out;
-    }
-    out.push_back({1, foot.at_edge + foot.slope});
-    return out;
-  }
-
-  const Plan& plan_;
-  const std::vector<Side>& sides_;
-  const Site& site_;
-  const Options& options_;
-};
-
 }  // namespace
 
 auto eaves_of(const Plan& plan, const std::vector<bool>& carries) -> std::vector<Eaves> {
@@ -347,7 +293,6 @@ auto setbacks_of(const Plan& plan, const Site& site, const Options& options) -> 
 }
 
 auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std::vector<Form> {
-  prof::Timer prof_timer("forms_of");
   std::vector<Form> out;
   if (site.sorted.empty()) return out;
   const auto& forms = options.forms;
@@ -391,39 +336,13 @@ auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std
   const auto ends = ends_of(plan, sides, forms);
   propose([&](std::size_t p) { return !ends[p]; });
   propose([](std::size_t) { return true; });
-  if (!site.planes.empty() && !std::getenv("NOPLANES")) {
-    const auto rising = FromPlanes(plan, sides, site, options).profiles();
-    std::vector<bool> carries(sides.size());
-    double gutter = 0, pitched_length = 0;
-    for (std::size_t p = 0; p < sides.size(); ++p) {
-      carries[p] = sides[p].length > 0 && rising[p].has_value();
-      if (carries[p]) gutter += sides[p].length * (*rising[p])[1].height, pitched_length += sides[p].length;
-    }
-    if (pitched_length > 0) {
-      Form form{plan, 0};
-      form.plan.cap = top;
-      for (std::size_t p = 0; p < sides.size(); ++p)
-        form.plan.profiles[p] = carries[p] ? *rising[p] : wall(gutter / pitched_length, forms);
-      const auto edges = eaves_of(plan, carries);
-      const auto misfit_below = [&](double cap) {
-        double sum = 0;
-        std::size_t count = 0;
-        const std::size_t stride = 1 + site.cells.size() / static_cast<std::size_t>(forms.samples);
-        for (std::size_t i = 0; i < site.cells.size(); i += stride)
-          if (const auto near = nearest_eaves(edges, site.places[i])) {
-            const double height = std::min(cap, height_at(form.plan.profiles[near->profile], near->inward));
-            sum += site.weight[i] * loss(height - site.z[i], options.robust);
-            ++count;
-          }
-        return sum / static_cast<double>(std::max<std::size_t>(1, count)) * static_cast<double>(site.cells.size()) * site.sample_area;
-      };
-      form.misfit = misfit_below(top);
-      out.push_back(form);
-      const double level = commonest(site.sorted, options);
-      form.plan.cap = level;
-      form.misfit = misfit_below(level);
-      out.push_back(std::move(form));
-    }
+  if (auto roof = by_planes(plan, site, options)) {
+    const auto give = [&](double cap) {
+      roof->plan.cap = cap;
+      out.push_back({roof->plan, strips.misfit_of(*roof, options)});
+    };
+    give(top);
+    give(commonest(site.sorted, options));
   }
   rank(out, &Form::misfit, options.same_cost);
   return out;

@@ -1,4 +1,3 @@
-#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/judge.hpp"
 
 #include <algorithm>
@@ -145,11 +144,10 @@ auto Judge::misfit_of(const View& view, double cap, double most, double paid) co
 }
 
 auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
-  prof::Timer prof_timer("judge");
   pay_for(plan);
   constexpr double any = std::numeric_limits<double>::infinity();
   if (auto judged = again(plan, any)) return std::move(*judged);
-  auto sketch = [&] { prof::Timer t("extrude::sketch"); return extrude::sketch(plan, raising_, run_); }();
+  auto sketch = extrude::sketch(plan, raising_, run_);
   if (!sketch) return sketch.error();
   auto judged = of(plan, std::move(*sketch), any);
   if (!judged) return base::error("extrude-no-area", "the roof cannot be compared with the mesh");
@@ -157,13 +155,12 @@ auto Judge::operator()(const model::Plan& plan) const -> base::Result<Judged> {
 }
 
 auto Judge::cheaper(const model::Plan& plan, double than) const -> std::optional<Judged> {
-  prof::Timer prof_timer("judge cheaper");
   pay_for(plan);
   const double most = than - options_.same_cost;
   if (known_ && known_->costs_at_least(plan) >= most) return std::nullopt;
   auto judged = again(plan, most);
   if (!judged) {
-    auto sketch = [&] { prof::Timer t("extrude::sketch"); return extrude::sketch(plan, raising_, run_); }();
+    auto sketch = extrude::sketch(plan, raising_, run_);
     if (!sketch) return std::nullopt;
     judged = of(plan, std::move(*sketch), most);
   }

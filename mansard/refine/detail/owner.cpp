@@ -1,4 +1,3 @@
-#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/owner.hpp"
 
 #include <algorithm>
@@ -249,7 +248,6 @@ class Pieces {
 }  // namespace
 
 auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mine, const Work& work) -> Roofed {
-  prof::Timer prof_timer("owner");
   Roofed out;
   const Options& options = work.options();
   std::vector<std::optional<base::Result<Piece>>> roofed(mine.size());

@@ -1,11 +1,9 @@
-#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/propose.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 
 #include "mansard/refine/detail/order.hpp"
@@ -42,7 +40,7 @@ auto mean_width(const Polygon& polygon, const carve::Frame& frame) -> double {
 
 /// Whether what stands out is one roof rather than a tree.
 auto coherent(const carve::Raster& raster, const Cut& cut, const Options& options) -> bool {
-  if (options.samples.point_area > 0 && !std::getenv("COH")) return true;
+  if (options.samples.point_area > 0) return true;  // the points will say (work.cpp): those of a tree lie on no roof
   const auto& o = options.cuts;
   const carve::Errors& e = cut.errors;
   const bool inside = std::abs(e.inside_mean) >= std::abs(e.outside_mean);
@@ -75,7 +73,6 @@ class Cuts {
     cut.errors = carve::errors_of(raster_, cut.mask, frame, options_.surfaces);
     const double gain = carve::gain_of(cut.errors, options_.surfaces);
     cut.gain = gain * raster_.cell_area();
-    if (std::getenv("TRACE")) std::fprintf(stderr, "  consider shape %d step %d area %.1f of %.1f gain %.4f least %.4f at %.1f %.1f whole.best %.4f coherent %d\n", shape, step, piece, area_, cut.gain, least_gain_, polygon.outer[0].x, polygon.outer[0].y, cut.errors.whole.best*raster_.cell_area(), (int)coherent(raster_, cut, options_));
     if (!(cut.gain >= least_gain_)) return;
     if (shape == 0 && gain < o.line_gain * cut.errors.whole.best) return;
     if (shape > 0 && !coherent(raster_, cut, options_)) return;
@@ -139,7 +136,6 @@ void consider_lines(const Polygon& part, const carve::Raster& raster, bool acros
            mean_width(piece, raster.frame) >= options.cuts.line_min_width;
   };
   for (const carve::SplitLine& line : carve::split_lines(raster, least_gain, options)) {
-    if (std::getenv("TRACE")) std::fprintf(stderr, " line across %d at %.2f gain %.4f step %d\n", across, line.at, line.gain, line.step);
     const double at = carve::aligned(raster, line.at, box.least.y, box.most.y, options.outlines);
     std::array<std::vector<Polygon>, 2> sides;
     for (const int way : {0, 1}) {
@@ -295,18 +291,15 @@ auto at_steps(const Polygon& part, const Polygon& piece, const Heights& measured
 }
 
 auto propose(const Polygon& part, const Heights& measured, const Heights& model, double least_gain,
-             const Options& options, std::span<const geometry::Point2> places, std::span<const std::uint32_t> planes)
-    -> std::vector<Proposal> {
-  prof::Timer prof_timer("propose");
+             const Options& options, const OnPlanes& points) -> std::vector<Proposal> {
   const std::size_t cells = measured.columns * measured.rows;
   if (part.outer.size() < 3 || cells == 0 || !(measured.spacing > 0)) return {};
   if (measured.z.size() != cells || model.z.size() != cells) return {};
-  if (std::getenv("TRACE")) std::fprintf(stderr, "propose area %.1f at %.1f %.1f least_gain %.4f\n", geometry::area(part), part.outer[0].x, part.outer[0].y, least_gain);
   const double in_part = geometry::area(part) / (measured.spacing * measured.spacing);
   const auto every = static_cast<std::size_t>(std::ceil(std::sqrt(std::max(1.0, in_part / options.cuts.max_cells))));
   const auto seen_along = [&](const Heights& heights, const Heights& of_model, const carve::Frame& frame) {
     auto raster = carve::raster_of(part, heights, of_model, frame, options.directions);
-    if (!std::getenv("NOSTRAY")) carve::leave_out_strays(raster, options);
+    carve::leave_out_strays(raster, options);
     return raster;
   };
   const carve::Raster as_measured = seen_along(thinned(measured, every), thinned(model, every), {});
@@ -315,8 +308,8 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   for (std::size_t d = 0; d < directions.size(); ++d) {
     const carve::Raster raster = seen_along(measured, model, directions[d]);
     const carve::Raster turned = carve::turned(raster);
-    const auto regions = places.empty() ? carve::regions_of(raster, options)
-                                        : carve::regions_of_planes(raster, places, planes, least_gain, options);
+    const auto regions = points.places.empty() ? carve::regions_of(raster, options)
+                                               : carve::regions_of_planes(raster, points, least_gain, options);
     consider_regions(part, raster, turned, regions, options, cuts, directions);
     consider_lines(part, raster, false, least_gain, options, cuts);
     consider_lines(part, turned, true, least_gain, options, cuts);

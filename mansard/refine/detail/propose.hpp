@@ -23,6 +23,12 @@ struct Proposal {
   bool whole_side = false;    ///< one straight line across the part; the piece is one side of it
 };
 
+/// The points of a scan that consists of points, by what they lie on.
+struct OnPlanes {
+  std::span<const geometry::Point2> places;
+  std::span<const std::uint32_t> planes;  ///< of each: a number of a plane, or one of planes::Found
+};
+
 /// A piece of a part with its free sides where the scan has them (place.hpp), without the slivers that it would leave,
 /// and with the part's own corners. None where polygon operations cannot tell the two apart, or too little is left.
 [[nodiscard]] auto at_steps(const geometry::Polygon& part, const geometry::Polygon& piece, const Heights& measured,
@@ -35,9 +41,9 @@ struct Proposal {
 /// Cost: cells × directions (two or three), with small constants.
 /// Measured and model share one grid; cells that are NaN in either count for nothing. `least_gain`, m²·m²: squared
 /// residual, summed over area, that a cut must explain.
-/// `places`, `planes`: of a scan that consists of points, where each is and the plane that it is on.
+/// With points, what stands out is what lies on a plane of theirs.
 [[nodiscard]] auto propose(const geometry::Polygon& part, const Heights& measured, const Heights& model,
-                           double least_gain, const Options& options, std::span<const geometry::Point2> places = {},
-                           std::span<const std::uint32_t> planes = {}) -> std::vector<Proposal>;
+                           double least_gain, const Options& options, const OnPlanes& points = {})
+    -> std::vector<Proposal>;
 
 }  // namespace mansard::refine::detail

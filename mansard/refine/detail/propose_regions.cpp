@@ -7,6 +7,7 @@
 
 #include "mansard/base/disjoint_sets.hpp"
 #include "mansard/geometry/angles.hpp"
+#include "mansard/planes/planes.hpp"
 
 namespace mansard::refine::detail::carve {
 namespace {
@@ -203,6 +204,33 @@ auto bands_of(const std::vector<double>& levels, const Options& options) -> std:
   return out;
 }
 
+/// Per cell the plane of a point in it; where there is none, that of a cell within `near` metres.
+auto planes_by_cell(const Raster& raster, const OnPlanes& points, double near) -> std::vector<std::uint32_t> {
+  constexpr std::uint32_t none = planes::Found::none;
+  std::vector<std::uint32_t> out(raster.z.size(), none);
+  for (std::size_t i = 0; i < points.places.size(); ++i) {
+    const geometry::Point2 at = raster.frame.to(points.places[i]);
+    const auto column = static_cast<int>(std::lround((at.x - raster.least.x) / raster.spacing)),
+               row = static_cast<int>(std::lround((at.y - raster.least.y) / raster.spacing));
+    if (raster.inside(column, row) && out[raster.at(column, row)] == none)
+      out[raster.at(column, row)] = points.planes[i];
+  }
+  const auto passes = static_cast<int>(std::ceil(near / raster.spacing));
+  for (int pass = 0; pass < passes; ++pass) {
+    const auto before = out;
+    for (int j = 0; j < raster.rows; ++j)
+      for (int i = 0; i < raster.columns; ++i) {
+        if (!raster.inside(i, j) || before[raster.at(i, j)] != none) continue;
+        for (const auto& [di, dj] : {std::pair{0, 1}, {1, 0}, {0, -1}, {-1, 0}})
+          if (raster.inside(i + di, j + dj) && before[raster.at(i + di, j + dj)] != none) {
+            out[raster.at(i, j)] = before[raster.at(i + di, j + dj)];
+            break;
+          }
+      }
+  }
+  return out;
+}
+
 /// Cells: half of the least width, so that what is narrower vanishes.
 auto half_width(const Raster& raster, const Options& options) -> int {
   return std::max(1, static_cast<int>(std::lround(options.cuts.min_width / 2 / raster.spacing - 0.5)));
@@ -223,7 +251,7 @@ auto grown(const Raster& raster, const Mask& mask, double by) -> Mask {
 }
 
 void leave_out_strays(Raster& raster, const Options& options) {
-  const auto limit = static_cast<float>(options.samples.point_area > 0 ? options.samples.stray : options.robust);
+  const auto limit = static_cast<float>(options.robust);
   for (const float way : {1.0F, -1.0F}) {
     Mask far(raster.z.size());
     for (std::size_t k = 0; k < far.size(); ++k)
@@ -259,41 +287,20 @@ auto regions_of(const Raster& raster, const Options& options) -> std::vector<Reg
   return out;
 }
 
-auto regions_of_planes(const Raster& raster, std::span<const geometry::Point2> places,
-                       std::span<const std::uint32_t> planes, double least_gain, const Options& options)
+auto regions_of_planes(const Raster& raster, const OnPlanes& points, double least_gain, const Options& options)
     -> std::vector<Region> {
-  constexpr std::uint32_t none = UINT32_MAX;
-  std::vector<std::uint32_t> label(raster.z.size(), none);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const geometry::Point2 at = raster.frame.to(places[i]);
-    const auto column = static_cast<int>(std::lround((at.x - raster.least.x) / raster.spacing)),
-               row = static_cast<int>(std::lround((at.y - raster.least.y) / raster.spacing));
-    if (raster.inside(column, row) && label[raster.at(column, row)] == none) label[raster.at(column, row)] = planes[i];
-  }
-  // Between points, the plane of a point near by.
-  const auto passes = static_cast<int>(std::ceil(std::sqrt(options.samples.point_area) / raster.spacing));
-  for (int pass = 0; pass < passes; ++pass) {
-    const auto before = label;
-    for (int j = 0; j < raster.rows; ++j)
-      for (int i = 0; i < raster.columns; ++i) {
-        if (!raster.inside(i, j) || before[raster.at(i, j)] != none) continue;
-        for (const auto& [di, dj] : {std::pair{0, 1}, {1, 0}, {0, -1}, {-1, 0}})
-          if (raster.inside(i + di, j + dj) && before[raster.at(i + di, j + dj)] != none) {
-            label[raster.at(i, j)] = before[raster.at(i + di, j + dj)];
-            break;
-          }
-      }
-  }
+  const auto label = planes_by_cell(raster, points, std::sqrt(options.samples.point_area));
   std::map<std::uint32_t, double> off;
   for (std::size_t k = 0; k < label.size(); ++k)
-    if (label[k] < none - 1 && raster.state[k] == Cell::seen)
+    if (label[k] < planes::Found::wall && raster.state[k] == Cell::seen)
       off[label[k]] += static_cast<double>(raster.residual[k]) * raster.residual[k] * raster.cell_area();
   std::vector<Region> out;
   for (const auto& [plane, gain] : off) {
     if (gain < least_gain) continue;
     Mask mask(label.size());
     for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = label[k] == plane ? 1 : 0;
-    add_components(raster, opened(raster, mask, 1), options.regions.min_area_share * options.least_area, 0, out);
+    add_components(raster, opened(raster, mask, half_width(raster, options)),
+                   options.regions.min_area_share * options.least_area, 0, out);
   }
   return out;
 }

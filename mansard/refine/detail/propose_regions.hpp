@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "mansard/refine/detail/propose.hpp"
@@ -20,15 +19,14 @@ struct Region {
 /// region runs around something, what it runs around. In an order that depends on the raster only.
 [[nodiscard]] auto regions_of(const Raster& raster, const Options& options) -> std::vector<Region>;
 
-/// What is farther from the model than differences count, and narrower than a structure, is as if it were unseen: strips
-/// along walls that were sampled beside their place, chimneys, cables.
+/// What is farther from the model than differences count, and narrower than a structure, is as if it were unseen:
+/// strips along walls that were sampled beside their place, chimneys, cables.
 void leave_out_strays(Raster& raster, const Options& options);
 
-/// What lies on one plane of the scan's points together and is off the model. `planes`: per place the plane that a point
-/// there is on.
-[[nodiscard]] auto regions_of_planes(const Raster& raster, std::span<const geometry::Point2> places,
-                                     std::span<const std::uint32_t> planes, double least_gain, const Options& options)
-    -> std::vector<Region>;
+/// Connected cells whose points lie on one plane, where that explains at least `least_gain`, m²·m², of what the model
+/// leaves. In the order of the planes' numbers.
+[[nodiscard]] auto regions_of_planes(const Raster& raster, const OnPlanes& points, double least_gain,
+                                     const Options& options) -> std::vector<Region>;
 
 /// The direction of the region's own walls where they agree on one, from how the residual rises at its rim.
 [[nodiscard]] auto own_direction(const Raster& raster, const Region& region, const Options::Regions& options,

@@ -1,4 +1,3 @@
-#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/refit.hpp"
 
 #include <algorithm>
@@ -186,7 +185,6 @@ auto chained(const Profile& profile, std::span<const std::optional<RoofLine>> li
 }
 
 auto refitted(const Judged& judged, const Site& site, const Options& options, Used used) -> Plan {
-  prof::Timer prof_timer("refitted");
   auto sorted = sort_looks(judged, site, options, used);
   Plan plan = judged.plan;
   for (std::size_t p = 0; p < plan.profiles.size(); ++p) {

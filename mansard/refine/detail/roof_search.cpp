@@ -1,4 +1,3 @@
-#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/roof_search.hpp"
 
 #include <algorithm>
@@ -65,7 +64,6 @@ auto best_cap(const Draft& draft, const Judge& judge) -> base::Result<Judged> {
 
 /// Moves the planes until that no longer helps.
 auto settle(Judged judged, const Judge& judge) -> Judged {
-  prof::Timer prof_timer("settle");
   for (std::int64_t round = 0; round < judge.options().search.settle_rounds; ++round) {
     const Plan plan = refitted(judged, judge.site(), judge.options());
     if (plan == judged.plan) break;
@@ -115,7 +113,6 @@ auto misfit_by_side(const Judged& judged, const Judge& judge) -> std::vector<dou
 
 /// One edge after the other, the longest first: whatever it carries better is taken.
 auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
-  prof::Timer prof_timer("descend");
   const auto most_sides = static_cast<std::size_t>(judge.options().search.max_sides);
   const auto sides = sides_of(judged.plan);
   std::vector<std::size_t> order;

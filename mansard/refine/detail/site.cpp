@@ -1,4 +1,3 @@
-#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/site.hpp"
 
 #include <algorithm>
@@ -254,7 +253,6 @@ auto measured_over(const Polygon& polygon, double base, const Evidence& evidence
 
 auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Options& options, const Evidence* points)
     -> Site {
-  prof::Timer prof_timer("look");
   Site site = unseen_over(polygon, base, spacing_over(polygon, options));
   auto& grid = site.measured;
   // What lies beyond the outline says nothing of the roof.
@@ -262,7 +260,8 @@ auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Op
   each_inside(polygon, grid, [&](std::size_t column, std::size_t row) {
     const std::size_t cell = row * grid.columns + column;
     const bool at_rim = !rim.empty() && rim[cell] != 0;
-    const auto z = at_rim ? points->height_at(grid.centre(cell), polygon) : height_at(grid.centre(cell), base, mesh, points);
+    const Point2 centre = grid.centre(cell);
+    const auto z = at_rim ? points->height_at(centre, polygon) : height_at(centre, base, mesh, points);
     if (z) grid.z[cell] = *z - base;
   });
   if (points == nullptr) finish(site, options);
@@ -283,7 +282,6 @@ auto points_of(const Site& site) -> std::vector<Measured> {
 }  // namespace
 
 auto crop(const Site& site, const Polygon& piece, const Options& options) -> Site {
-  prof::Timer prof_timer("crop");
   Site out = unseen_over(piece, site.base, site.measured.spacing);
   auto& grid = out.measured;
   const Cells cells(site.measured, grid);
@@ -298,7 +296,6 @@ auto crop(const Site& site, const Polygon& piece, const Options& options) -> Sit
 
 auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene& mesh, const Options& options,
             const Evidence* points) -> Site {
-  prof::Timer prof_timer("merged");
   Site out = unseen_over(both, a.base, spacing_over(both, options));
   auto& grid = out.measured;
   if (a.measured.spacing != grid.spacing || b.measured.spacing != grid.spacing)

@@ -1,4 +1,3 @@
-#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/supported.hpp"
 
 #include <algorithm>
@@ -100,7 +99,6 @@ auto without(const Judged& judged, std::uint32_t bare, const Judge& judge) -> st
 }  // namespace
 
 auto supported(Judged judged, const Judge& judge) -> Judged {
-  prof::Timer prof_timer("supported");
   if (judge.site().sorted.empty()) return judged;
   std::vector<std::optional<model::Provenance>> tried;  // a cap has none
   bool changed = false;

@@ -1,10 +1,7 @@
-#include "mansard/refine/detail/prof.hpp"
 #include "mansard/refine/detail/work.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <utility>
 
@@ -81,7 +78,6 @@ auto Work::both_of(const Piece& a, const Piece& b, const geometry::Polygon& both
 /// `worth`: dearer roofs are of no interest.
 auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search, double worth,
                   std::shared_ptr<KnownRoofs> known) const -> base::Result<Piece> {
-  prof::Timer prof_timer(search == Search::quick ? "roofed quick" : search == Search::settled ? "roofed settled" : "roofed thorough");
   std::vector<std::string> changes;
   if (!known) known = std::make_shared<KnownRoofs>();
   auto roof = best_roof(draft, judge_of(site, known.get()), search, worth, changes);
@@ -100,7 +96,6 @@ auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search
 
 /// The pieces that are cheaper together than the one, if there are.
 auto Work::split(const Piece& piece) const -> std::vector<Piece> {
-  prof::Timer prof_timer("split");
   constexpr double fewest_faces = 4;  // a tetrahedron's: no solid has fewer
   const double least_gain =
       std::max(options_.part_price + fewest_faces * options_.face_price, worth_a_cut * piece.roof.misfit);
@@ -125,7 +120,6 @@ auto Work::may_cut_anew(const Piece& a, const Piece& b) const -> bool {
 
 /// Where two pieces meet in the wrong place: both as one, cut anew, if that is cheaper.
 auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> std::vector<Piece> {
-  prof::Timer prof_timer("cut_anew");
   const double least_gain = options_.part_price;
   const Piece one{
       std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, both.roof, std::nullopt, {}};
@@ -142,16 +136,15 @@ auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> 
 
 /// Of the proposed cuts the one whose pieces cost least, if that is less than they are worth.
 auto Work::cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece> {
-  prof::Timer prof_timer("cut_within");
   account_->add(work_of_cut * piece.site.cells.size());
   Heights model = piece.site.measured, measured = piece.site.measured;
   model.z = piece.roof.view.z;
   // Where the roof is above the crown that hides it, that is known.
   for (const auto& [cell, ceiling] : piece.site.ceilings)
     if (model.z[cell] > ceiling) measured.z[cell] = ceiling;
-  return cheapest(piece, propose(piece.site.polygon, measured, model, least_gain, options_, piece.site.of_points ? std::span<const geometry::Point2>(piece.site.places) : std::span<const geometry::Point2>(),
-                                  piece.site.plane_of),
-                  worth);
+  OnPlanes points;
+  if (piece.site.of_points) points = {piece.site.places, piece.site.plane_of};
+  return cheapest(piece, propose(piece.site.polygon, measured, model, least_gain, options_, points), worth);
 }
 
 auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, double worth) const
@@ -171,7 +164,6 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
   });
   std::erase_if(trials, [](const Trial& trial) { return trial.pieces.empty(); });
   rank(trials, &Trial::cost, options_.same_cost);
-  if (std::getenv("TRACE")) { std::fprintf(stderr, " cheapest of %zu, worth %.4f now %.4f (misfit %.4f):\n", proposals.size(), worth, piece.roof.cost, piece.roof.misfit); for (auto& t : trials) std::fprintf(stderr, "   trial cost %.4f pieces %zu area %.1f %s\n", t.cost, t.pieces.size(), geometry::area(t.proposal->polygon), t.proposal->what.c_str()); }
   const auto needles = [this](const std::vector<Piece>& pieces) {
     return std::ranges::any_of(pieces,
                                [this](const Piece& one) { return is_needle(one.site, one.roof, mesh_, options_); });
@@ -186,7 +178,6 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
 
 /// The same of the cuts between wings, those with most misfit about them.
 auto Work::into_wings(const Piece& piece, double least_gain) const -> std::vector<Piece> {
-  prof::Timer prof_timer("into_wings");
   struct Promising {
     WingLine line;
     double about = 0;  // m²·m²
@@ -223,7 +214,6 @@ auto Work::misfit_about(const Piece& piece, geometry::Point2 place, double withi
 
 /// Both under one roof, where their grounds make one polygon.
 auto Work::united(const Piece& a, const Piece& b) const -> std::optional<Union> {
-  prof::Timer prof_timer("united");
   auto polygon = joined(a.site.polygon, b.site.polygon, options_);
   if (!polygon) return std::nullopt;
   Site site = both_of(a, b, *polygon);
@@ -236,7 +226,6 @@ auto Work::united(const Piece& a, const Piece& b) const -> std::optional<Union> 
 
 /// The same where that is cheaper.
 auto Work::as_one(const Piece& a, const Piece& b, const Union& both) const -> std::optional<Piece> {
-  prof::Timer prof_timer("as_one");
   const double worth = cost_of(a, b);
   if (both.roof.cost >= options_.joins.quick_excess * worth) return std::nullopt;
   auto made = roofed(std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, Search::thorough,
@@ -289,7 +278,6 @@ auto Work::cost_of_faces(const geometry::Polygon& polygon) const -> double {
 
 /// The pieces of a cut, each with a roof found quickly; none where they cost more than they are worth.
 auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) const -> std::vector<Piece> {
-  prof::Timer prof_timer("tried");
   std::vector<Piece> out;
   double left = worth;
   const Origin origin[]{{piece.draft, piece.roof.plan}};
@@ -302,12 +290,11 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
     const auto too_high = too_high_over(site, piece.site.measured, piece.roof.view.z);
     if (site.cells.empty() && too_high == 0) return {};
     const double known = site.seen_area() + site.cell_area * static_cast<double>(too_high);
-    if (known < options_.pieces.seen_share * geometry::area(polygon)) { if (std::getenv("TRACE")) std::fprintf(stderr, "    tried: unseen\n"); return {}; }
+    if (known < options_.pieces.seen_share * geometry::area(polygon)) return {};
     Draft draft = draft_of(origin, site, options_);
     const bool rest = out.empty() && !proposal.whole_side;  // its roof was found before; a little of it is gone
     const Search search = rest ? Search::settled : Search::quick;
     auto made = roofed(piece.draft_index, std::move(site), std::move(draft), search, left);
-    if (std::getenv("TRACE")) std::fprintf(stderr, "    tried %s %.1f of %.1f: %s cost %.3f misfit %.3f left %.3f\n", proposal.what.c_str(), geometry::area(polygon), geometry::area(piece.site.polygon), made ? "made" : made.error().message.c_str(), made ? made->roof.cost : 0, made ? made->roof.misfit : 0, left);
     if (!made) return {};
     if (!out.empty() && !proposal.whole_side && !is_of_roof(*made, options_)) return {};
     left -= made->roof.cost + (out.empty() ? 0 : options_.part_price);
@@ -328,7 +315,6 @@ auto seen_over(const Judged& roof, const Site& site) -> Judged {
 /// The roof was fitted to what stands on it, too: looked for again without that, until roof and dormers together cost
 /// no less. None where nothing stands on it, or that costs more than `most`.
 auto Work::beside_dormers(const Piece& piece, double most) const -> std::optional<Piece> {
-  prof::Timer prof_timer("beside_dormers");
   struct Found {
     Judged roof;
     Site without;
@@ -396,7 +382,6 @@ auto Work::dormers_of(const Judged& roof, const Site& all) const -> std::pair<st
 }
 
 auto Work::finished(Piece piece) const -> Piece {
-  prof::Timer prof_timer("finished");
   if (piece.site.cells.empty() && !piece.site.ceilings.empty())
     piece.changes.push_back("the crown of a tree hides it: its height, " + base::to_text(piece.roof.plan.cap, 1) +
                             " m, is a guess");
@@ -461,7 +446,6 @@ auto Work::with_roof(const Piece& piece, const model::Plan& plan, double most) c
 /// The same pieces searched thoroughly; none where a sketch is one that no solid can be made of.
 auto Work::searched(const Piece& piece, const Proposal& proposal, std::vector<Piece> pieces) const
     -> std::vector<Piece> {
-  prof::Timer prof_timer("searched");
   double cost = options_.part_price * (static_cast<double>(pieces.size()) - 1);
   for (const auto& one : pieces) cost += one.roof.cost;
   const auto before_and_after =
