@@ -253,12 +253,14 @@ auto grown(const Raster& raster, const Mask& mask, double by) -> Mask {
 void leave_out_strays(Raster& raster, const Options& options) {
   const auto limit = static_cast<float>(options.robust);
   for (const float way : {1.0F, -1.0F}) {
-    Mask far(raster.z.size());
-    for (std::size_t k = 0; k < far.size(); ++k)
-      far[k] = raster.state[k] == Cell::seen && way * raster.residual[k] > limit ? 1 : 0;
-    const Mask wide = opened(raster, far, half_width(raster, options));
-    for (std::size_t k = 0; k < far.size(); ++k)
-      if (far[k] && !wide[k]) raster.state[k] = Cell::unseen, raster.z[k] = raster.residual[k] = 0;
+    // Half of the limit, so that noise about the limit makes no holes.
+    Mask off(raster.z.size());
+    for (std::size_t k = 0; k < off.size(); ++k)
+      off[k] = raster.state[k] == Cell::seen && way * raster.residual[k] > limit / 2 ? 1 : 0;
+    const Mask wide = opened(raster, off, half_width(raster, options));
+    for (std::size_t k = 0; k < off.size(); ++k)
+      if (way * raster.residual[k] > limit && !wide[k])
+        raster.state[k] = Cell::unseen, raster.z[k] = raster.residual[k] = 0;
   }
 }
 
