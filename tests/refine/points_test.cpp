@@ -102,6 +102,45 @@ TEST(RefinePoints, keeps_the_draft_over_which_there_is_no_point) {
   EXPECT_EQ(parts[0].plan, draft.plan);
 }
 
+TEST(RefinePoints, has_a_step_that_the_planes_show_where_ground_is_seen_along_the_outline) {
+  // Two flat roofs, 0.4 m apart. Ground points within the outline, 12 m below, are a hundred times the step's squares.
+  const Plan low = plan(rectangle(10, 20, 5, 8), std::vector<Profile>(4, wall(12)), 12);
+  const Plan high = plan(rectangle(15, 20, 7, 8), std::vector<Profile>(4, wall(12.4)), 12.4);
+  const auto parts = refined({flat_draft(rectangle(9.7, 20, 12.3, 8), 12)}, pointed({low, high}, 20), options_of(20));
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_NEAR(std::min(parts[0].plan.cap, parts[1].plan.cap), 12, 0.03);
+  EXPECT_NEAR(std::max(parts[0].plan.cap, parts[1].plan.cap), 12.4, 0.03);
+}
+
+TEST(RefinePoints, has_a_roof_whose_sides_are_unlike) {
+  // A steep foot on one side, a flat pitch on the other, walls at the ends.
+  const Profile foot{{0, 0}, {0, 5}, {1.2, 8}, {2.2, 8.4}};
+  const Plan unlike = plan(house(), {foot, wall(5), roof(7, 0.35), wall(5)}, 14);
+  for (const double density : {5.0, 20.0}) {
+    const auto parts = refined({flat_draft(house(), 6)}, pointed({unlike}, density), options_of(density));
+    ASSERT_EQ(parts.size(), 1U) << density;
+    EXPECT_THAT(pitched_sides(parts[0].plan), ElementsAre(0, 2)) << density;
+    EXPECT_LT(difference(parts, {unlike}, 0.3), 0.02) << density;
+  }
+}
+
+TEST(RefinePoints, has_no_part_where_many_points_are_of_the_ground_and_many_of_the_roof) {
+  // A light well under a net, a roof that is seen through: no height suits most of the points over it.
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    auto mesh = scanned({plan(house(), std::vector<Profile>(4, wall(9)), 9)});
+    base::Random random(seed);
+    for (int i = 0; i < 600; ++i) {
+      const Point2 at{random.uniform(8, 24), random.uniform(18, 30)};
+      const bool over = at.x > 10 && at.x < 22 && at.y > 20 && at.y < 28;
+      const bool through = at.x > 14 && at.x < 17.5 && at.y > 22 && at.y < 25.5 && random.uniform(0, 1) < 0.6;
+      mesh.points.push_back({at.x, at.y, ground + (over && !through ? 9 : 0) + random.uniform(-0.05, 0.05)});
+    }
+    const auto parts = refined({flat_draft(house(), 9)}, rays::Scene(std::move(mesh)), options_of(3));
+    ASSERT_EQ(parts.size(), 1U) << seed;
+    EXPECT_NEAR(parts[0].plan.cap, 9, 0.03) << seed;
+  }
+}
+
 TEST(RefinePoints, are_the_law_s_with_no_blur_and_a_margin_of_half_a_spacing) {
   const auto options = options_of(4);
   EXPECT_EQ(options.samples.point_area, 0.25);

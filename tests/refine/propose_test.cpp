@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 
 #include "fields.hpp"
+#include "mansard/refine/detail/propose_regions.hpp"
 
 namespace mansard::refine::detail {
 
@@ -251,6 +252,53 @@ TEST(Propose, a_plant_room_askew_to_the_part) {
   const auto all = found(house, seen, flat(10));
   ASSERT_FALSE(all.empty());
   EXPECT_LT(corner_distance(all[0].polygon.outer, room.outer), 0.25);
+}
+
+TEST(Propose, leaves_out_what_is_far_off_and_narrower_than_a_structure) {
+  // A strip of ground along the outline, 0.5 m wide, a chimney, and a light well of 4 by 4 m with noise about the
+  // limit.
+  const Roof seen = [](Point2 p) {
+    if (p.x > 5 && p.x < 9 && p.y > 5 && p.y < 9) return 7.2 - 0.4 * std::fmod(std::abs(p.x + 3 * p.y), 1.0);
+    if (p.x > 15 && p.x < 15.5 && p.y > 6 && p.y < 6.5) return 14.0;
+    return p.y < 0.5 ? 0.0 : 10.0;
+  };
+  namespace carve = mansard::refine::detail::carve;
+  const Options options;
+  auto raster =
+      carve::raster_of(house, scanned(house, seen, {.melt = 0}), modelled(house, flat(10), {}), {}, options.directions);
+  carve::leave_out_strays(raster, options);
+  std::size_t narrow = 0, well = 0;
+  for (int j = 0; j < raster.rows; ++j)
+    for (int i = 0; i < raster.columns; ++i) {
+      if (raster.state[raster.at(i, j)] != carve::Cell::seen) continue;
+      const double r = std::abs(static_cast<double>(raster.residual[raster.at(i, j)]));
+      if (r > 3.5) ++narrow;
+      else if (r > 2) ++well;
+    }
+  EXPECT_EQ(narrow, 0U);
+  EXPECT_NEAR(static_cast<double>(well), 16 * 16, 8);
+}
+
+TEST(Propose, what_lies_on_a_plane_of_its_own_although_it_is_no_step) {
+  // A pitch of 10° on a part that the model has level: within 0.3 m of it everywhere.
+  const Polygon pitch = rectangle({8, 4}, {11, 10});
+  const auto is_pitch = [](Point2 p) { return p.x > 8 && p.x < 11 && p.y > 4 && p.y < 10; };
+  const Roof seen = [&](Point2 p) { return is_pitch(p) ? 10 + 0.18 * (p.x - 9.5) : 10.0; };
+  const Heights measured = scanned(house, seen, {}), model = modelled(house, flat(10), {});
+  std::vector<Point2> places;
+  std::vector<std::uint32_t> planes;
+  for (double x = 0.3; x < 20; x += 0.4)
+    for (double y = 0.3; y < 12; y += 0.4) {
+      places.push_back({x, y});
+      planes.push_back(is_pitch({x, y}) ? 1 : 0);
+    }
+  Options options;
+  options.samples.point_area = 0.16;
+  const auto has_it = [&](const std::vector<Proposal>& all) {
+    return std::ranges::any_of(all, [&](const Proposal& one) { return cut_distance(one, house, pitch) < 4; });
+  };
+  EXPECT_TRUE(has_it(propose(house, measured, model, 0.1, options, {places, planes})));
+  EXPECT_FALSE(has_it(propose(house, measured, model, 0.1, options)));
 }
 
 TEST(Propose, gives_nothing_for_no_grid_or_another) {

@@ -413,6 +413,26 @@ TEST(Choose, a_bay_as_narrow_as_the_scans_edges_is_building_where_a_roof_is_seen
   EXPECT_FALSE(bay_is_building(0.4, 0));  // a scan with sharp edges shows what is there
 }
 
+TEST(Choose, what_no_point_was_measured_over_is_what_the_footprint_says) {
+  // A bay of 2 by 1 m, over which the surface between the points falls from the roof to the ground beside it.
+  const AsciiMap map({"AAAA", "AAAA", "AAAA", ".BB."}, 1);
+  auto mesh = map.roofs({{'A', 6}, {'B', 0}});
+  for (double x = 0.1; x < 4; x += 0.4)
+    for (double y = 1.1; y < 4; y += 0.4) mesh.points.push_back({x, y, 6});
+  Options options;
+  options.by_points = true;
+  const auto is_building = [&](int points_on_the_ground) {
+    auto scan = mesh;
+    for (int i = 0; i < points_on_the_ground; ++i) scan.points.push_back({1.3 + 0.2 * i, 0.5, 0});
+    const auto s = choose(map.arrangement, sweep_edges(1), map.block({"AB"}), rays::Scene(scan), options);
+    EXPECT_TRUE(s);
+    return s && s->faces[map.face.at('B')].inside;
+  };
+  EXPECT_TRUE(is_building(0));
+  EXPECT_TRUE(is_building(2));
+  EXPECT_FALSE(is_building(5));
+}
+
 TEST(Choose, what_is_along_a_boundary_does_not_tell_the_height_of_a_face) {
   // Off the rim, half of the bay is left: as much roof as ground in all, and roof alone in the middle.
   EXPECT_TRUE(bay_is_building(0.6, 0.1));
