@@ -11,8 +11,10 @@ namespace {
 /// sides carry roof.
 constexpr double numbers_of_face = 3, numbers_of_part = 20;
 
-/// Samples for each number of a structure, and m²: what is smaller is no part, however exact the scan.
-constexpr double samples_of_number = 3, least_structure = 1;
+/// m²: a structure that every scan shows, such as a lift house; what is of interest is a step of `detail` on it.
+constexpr double structure = 4;
+/// Samples for each number of a structure. A fit with as many has an error of 0.6 of a sample's.
+constexpr double samples_of_number = 3;
 
 /// m²: the ground that one number is fitted to, for n = F / A in ½ ln n: a roof plane of a house. It counts by its
 /// logarithm.
@@ -58,7 +60,7 @@ constexpr double on_face = 1.5, most_on_face = 0.15;
 auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   const double independent = std::max(2.0, roof_plane / scan.correlated_area);
   const double by_noise = o.significance * scan.chance() * std::log(independent);
-  const double by_detail = number_of_detail * o.detail * o.detail * o.least_area;
+  const double by_detail = number_of_detail * o.detail * o.detail * structure;
   const double number = std::max(by_noise, by_detail);
   o.value_price = number;
   o.face_price = numbers_of_face * number;
@@ -94,10 +96,9 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.cuts.min_step = std::max(wanted_step * o.detail, std::min(most_step, seen_step * scan.noise));
   o.bare.noise = std::clamp(on_face * scan.noise, least_robust, most_on_face);
   // A structure is shown where there are some samples for each of its numbers, and where it is wider than its edges.
-  const double sample = points ? scan.point_area : between * between,
-               side = width_of_side / width_of_part * width_of_side * shown;
-  o.least_area =
-      std::min(o.least_area, std::max({least_structure, samples_of_number * numbers_of_part * sample, side * side}));
+  const double sample = points ? scan.point_area : between * between, side = width_of_side * o.cuts.min_width;
+  const double shown_area = std::max(samples_of_number * numbers_of_part * sample, side * side);
+  o.cuts.min_area = std::max(o.least_area, std::min(structure, shown_area));
   return o;
 }
 

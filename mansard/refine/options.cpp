@@ -11,6 +11,7 @@ constexpr const char* decision_14 = "docs/decisions/0014-refined-by-measured-err
 constexpr const char* decision_17 = "docs/decisions/0017-setbacks-by-measured-error.md";
 constexpr const char* decision_39 = "docs/decisions/0039-alike-what-is-alike.md";
 constexpr const char* decision_41 = "docs/decisions/0041-faces-want-evidence.md";
+constexpr const char* decision_137 = "docs/decisions/0137-planes-propose.md";
 constexpr const char* decision_87 = "docs/decisions/0087-dormers-by-default.md";
 
 constexpr Range count{0, 1000};              // things; none switches the step off
@@ -27,10 +28,10 @@ void add_objective(OptionList& list, Options& o) {
   list.choice("effort", o.effort, {{"caps", Effort::caps}, {"planes", Effort::planes}, {"parts", Effort::parts}},
               "What may be changed by measured error: the height caps; the profiles too; or the plan as well.")
       .source(decision_14)
-      .number(
-          "detail", o.detail, "m", {0.001, 10},
-          "The smallest detail of interest: a step in height of this size over refine.least_area. What the scan shows "
-          "more finely is left out.")
+      .number("detail", o.detail, "m", {0.001, 10},
+              "The smallest detail of interest: a step in height of this size over 4 m². What the scan shows more "
+              "finely is "
+              "left out.")
       .source("half of the smallest step that LoD 2.2 models of agencies show; docs/accuracy.md")
       .number("significance", o.significance, "", {0.01, 100},
               "How many times the description length of a number, in the measured noise of the scan, the number must "
@@ -41,9 +42,11 @@ void add_objective(OptionList& list, Options& o) {
       .number("robust", o.robust, "m", {0.05, 100},
               "Differences from the mesh greater than this count linearly, not squared: trees, debris.")
       .source(decision_14)
-      .number("least_area", o.least_area, "m²", {0.5, 1000},
-              "A structure with a smaller ground area stays with the roof around it.")
-      .source(by_hand);
+      .number(
+          "least_area", o.least_area, "m²", {0.5, 1000},
+          "A structure with a smaller ground area stays with the roof around it; where the scan shows less, so does a "
+          "larger one, up to 4 m².")
+      .source(decision_137);
 }
 
 void add_lines(OptionList& list, Options::Lines& o) {

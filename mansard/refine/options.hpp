@@ -18,10 +18,10 @@ enum class Effort : std::uint8_t {
 /// uses them: advanced options, of which few are measured; `option_list` gives meaning, range and source of each.
 struct Options {
   Effort effort = Effort::parts;
-  double detail = 0.1;        ///< m; the smallest step on `least_area` that is of interest
+  double detail = 0.1;        ///< m; the smallest step on 4 m² that is of interest
   double significance = 1.0;  ///< how many times what noise explains by chance a number must explain
   double grid = 0.25;         ///< m between samples seen from above
-  double least_area = 4.0;    ///< m²; smaller structures stay with the roof they are on
+  double least_area = 1.0;    ///< m²; smaller structures stay with the roof they are on
   double robust = 3.0;        ///< m; greater differences count linearly, not squared: trees, debris
 
   // No options: `decided_by` (law.hpp) sets them by the accuracy of the scan. These are those of a fair photogrammetric
@@ -220,6 +220,7 @@ struct Options {
   struct Cuts {
     double min_step = 0.5;                        ///< m; no option: decided_by
     double min_width = 0.8;                       ///< m; no option: decided_by
+    double min_area = 4;                          ///< m²; no option: decided_by
     static constexpr std::int64_t max_count = 6;  ///< a limit on the search
     double crisp_rms = 0.15;                      ///< m
     double smooth_rms = 0.35;                     ///< m
@@ -285,7 +286,7 @@ struct Options {
     static constexpr std::int64_t gap_cells = 3;  ///< of the grid
     double bin = 0.25;                            ///< m
     static constexpr double max_residual = 40;    ///< m; the histogram ends there
-    /// A peak of the histogram holds at least this share of refine.least_area in its three bins. Chosen by hand; not
+    /// A peak of the histogram holds at least this share of cuts.min_area in its three bins. Chosen by hand; not
     /// measured.
     double peak_share = 0.5;
     /// Two peaks of the histogram are two levels where the valley between them is lower than this share of the lower
@@ -295,7 +296,7 @@ struct Options {
     /// A level is used where it differs from the model by more than this multiple of refine.cuts_min_step. Chosen by
     /// hand; not measured.
     double level_clearance = 1.5;
-    /// A region has at least this share of refine.least_area; its outline may have more. Chosen by hand; not measured.
+    /// A region has at least this share of cuts.min_area; its outline may have more. Chosen by hand; not measured.
     double min_area_share = 0.75;
     /// A region is used where at least this share of its cells was sampled. Chosen by hand; not measured.
     double seen_share = 0.6;
@@ -316,7 +317,7 @@ struct Options {
     double outside_price = 0.05;
     /// Maximum number of rectangles of an outline. Chosen by hand; not measured.
     std::int64_t max_rectangles = 3;
-    /// A rectangle has at least this share of refine.least_area. Chosen by hand; not measured.
+    /// A rectangle has at least this share of cuts.min_area. Chosen by hand; not measured.
     double min_area_share = 0.4;
     /// A rectangle adds at least this share of the region's cells. Chosen by hand; not measured.
     double min_addition = 0.08;

@@ -47,6 +47,8 @@ TEST(Law, makes_nothing_smaller_than_the_scan_shows) {
   const auto exact = decided_by({}, scan(0, 1, 0, 0)), blurred = decided_by({}, scan(0.1, 10, 0.25, 0.1));
   EXPECT_DOUBLE_EQ(exact.cuts.min_step, 0.15);  // one and a half of the smallest detail
   EXPECT_DOUBLE_EQ(exact.cuts.min_width, 0.3);
+  EXPECT_DOUBLE_EQ(exact.cuts.min_area, 1);
+  EXPECT_DOUBLE_EQ(blurred.cuts.min_area, 4);
   EXPECT_DOUBLE_EQ(exact.mansard.min_depth, 0.3);
   EXPECT_DOUBLE_EQ(blurred.cuts.min_step, 0.5);
   EXPECT_DOUBLE_EQ(blurred.cuts.min_width, 0.8);
@@ -56,6 +58,13 @@ TEST(Law, makes_nothing_smaller_than_the_scan_shows) {
   Options asked;
   asked.detail = 1;
   EXPECT_DOUBLE_EQ(decided_by(asked, scan(0, 1, 0, 0)).cuts.min_step, 1.5);
+  asked.least_area = 3;
+  EXPECT_DOUBLE_EQ(decided_by(asked, scan(0, 1, 0, 0)).cuts.min_area, 3);
+  asked.least_area = 20;
+  EXPECT_DOUBLE_EQ(decided_by(asked, scan(0.1, 10, 0.25, 0.1)).cuts.min_area, 20);
+  auto points = scan(0.03, 0.05, 0, 0.1);
+  points.point_area = 0.05, points.spacing = std::sqrt(0.05);
+  EXPECT_NEAR(decided_by({}, points).cuts.min_area, 60 * 0.05, 1e-9);
   // Between two samples of a noisy scan an edge may be anywhere.
   auto coarse = scan(0.1, 10, 0, 0);
   coarse.spacing = 2;

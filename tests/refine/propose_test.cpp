@@ -345,8 +345,8 @@ TEST(Propose, guarantees_over_random_parts) {
       const Polygon& piece = all[i].polygon;
       RC_ASSERT(beyond(piece, b.part) < 1e-6);
       RC_ASSERT(mansard::geometry::is_simple(piece));
-      RC_ASSERT(area(piece) >= options.least_area - 1e-6);
-      RC_ASSERT(area(b.part) - area(piece) >= options.least_area - 1e-6);
+      RC_ASSERT(area(piece) >= options.cuts.min_area - 1e-6);
+      RC_ASSERT(area(b.part) - area(piece) >= options.cuts.min_area - 1e-6);
       RC_ASSERT(all[i].gain >= least_gain);
       RC_ASSERT(piece == again[i].polygon && all[i].gain == again[i].gain && all[i].what == again[i].what);
       for (std::size_t j = 0; j < i; ++j) RC_ASSERT(difference(piece, all[j].polygon) > 0.01 * area(piece));

@@ -252,11 +252,14 @@ void add_eaves(const PartResult::EavesSeen& eaves, model::Attributes& attributes
 
 namespace {
 
-/// Whether the scan misses more of a footprint than the smallest detail.
+/// m²: ground that is not seen may hide a structure of this size, such as a lift house.
+constexpr double hidden_structure = 4;
+
+/// Whether the scan misses enough of a footprint to hide something.
 auto partly_seen(const block::Member& member, double share, const Options& options) -> std::optional<base::Diagnostic> {
   double area = 0;
   for (const auto& polygon : member.polygons) area += geometry::area(polygon);
-  if (share < options.partly_seen || share * area < options.refine.least_area) return std::nullopt;
+  if (share < options.partly_seen || share * area < hidden_structure) return std::nullopt;
   return base::warning("pipeline-partly-seen", "the scan does not cover " + base::to_text(100 * share, 0) +
                                                    " % of the footprint; the roof there is continued from what it "
                                                    "shows");

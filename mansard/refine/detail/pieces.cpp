@@ -272,7 +272,7 @@ auto cut(const Polygon& part, const Polygon& structure, const Options& options) 
   for (const auto& piece : out) covered += geometry::area(piece);
   if (std::abs(covered - geometry::area(part)) > options.pieces.straight * around(part)) return {};
   for (const auto& piece : out)
-    if (geometry::area(piece) < options.least_area || mean_width(piece) < options.pieces.min_width ||
+    if (geometry::area(piece) < options.cuts.min_area || mean_width(piece) < options.pieces.min_width ||
         !geometry::is_simple(piece) || touches_itself(piece, options.pieces.straight))
       return {};
   return out;

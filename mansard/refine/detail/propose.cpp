@@ -67,7 +67,7 @@ class Cuts {
   void consider(const Polygon& polygon, const carve::Frame& frame, int shape, bool step) {
     const auto& o = options_.cuts;
     const double piece = geometry::area(polygon);
-    if (piece < options_.least_area || area_ - piece < options_.least_area) return;
+    if (piece < options_.cuts.min_area || area_ - piece < options_.cuts.min_area) return;
     if (shape > 0 && mean_width(polygon, frame) < o.min_width) return;
     Cut cut{polygon, frame, shape, step, carve::cells_in(polygon, raster_), {}, 0, 0};
     cut.errors = carve::errors_of(raster_, cut.mask, frame, options_.surfaces);
@@ -132,7 +132,7 @@ void consider_lines(const Polygon& part, const carve::Raster& raster, bool acros
                     const Options& options, Cuts& cuts) {
   const geometry::Box2 box = geometry::bounds(raster.part.outer);
   const auto wide = [&](const Polygon& piece) {
-    return geometry::area(piece) >= options.least_area &&
+    return geometry::area(piece) >= options.cuts.min_area &&
            mean_width(piece, raster.frame) >= options.cuts.line_min_width;
   };
   for (const carve::SplitLine& line : carve::split_lines(raster, least_gain, options)) {
@@ -216,7 +216,7 @@ auto with_corners_of(const Polygon& part, const Polygon& piece, double same_plac
 
 /// Whether part and piece can be told apart by polygon operations: rounding at shared walls defeats them now and then.
 auto sound(const Polygon& part, const Polygon& piece, const Options& options) -> bool {
-  const double nothing = options.pieces.straight * around(part), least_area = options.least_area;
+  const double nothing = options.pieces.straight * around(part), least_area = options.cuts.min_area;
   if (piece.outer.size() < 3 || !geometry::is_simple(piece)) return false;
   const auto [whole, taken] = fitted(part, piece, options.pieces);
   const auto rest = geometry::subtract(whole, taken), beyond = geometry::subtract(taken, whole);

@@ -102,7 +102,7 @@ void joined(Rectangle& a, const Rectangle& b, double near) {
 auto rectangles_of(const Raster& raster, const Region& region, const Options& options) -> std::vector<Rectangle> {
   const auto& o = options.outlines;
   Worths worths = worths_of(raster, region, options);
-  const double least_sum = std::max(o.min_area_share * options.least_area / raster.cell_area(),
+  const double least_sum = std::max(o.min_area_share * options.cuts.min_area / raster.cell_area(),
                                     o.min_addition * static_cast<double>(region.cells));
   std::vector<Rectangle> out;
   for (std::int64_t round = 0; round < o.max_rectangles; ++round) {

@@ -160,7 +160,7 @@ auto levels_of(const Raster& raster, const std::vector<float>& residual, const O
   std::size_t lowest = 0;  // since then
   for (std::size_t b = 1; b + 1 < count; ++b) {
     const bool top =
-        heap[b] > heap[b - 1] && heap[b] >= heap[b + 1] && 3 * heap[b] >= o.peak_share * options.least_area;
+        heap[b] > heap[b - 1] && heap[b] >= heap[b + 1] && 3 * heap[b] >= o.peak_share * options.cuts.min_area;
     if (heap[b] < heap[lowest]) lowest = b;
     if (!top) continue;
     const double smaller = std::min(heap[peak], heap[b]);
@@ -275,7 +275,7 @@ auto regions_of(const Raster& raster, const Options& options) -> std::vector<Reg
       mask[k] = raster.state[k] != Cell::outside && residual[k] > low && residual[k] < high ? 1 : 0;
     const std::size_t before = out.size();
     mask = opened(raster, mask, by);
-    add_components(raster, mask, o.min_area_share * options.least_area, o.seen_share, out);
+    add_components(raster, mask, o.min_area_share * options.cuts.min_area, o.seen_share, out);
     // What a region runs around may be the simpler outline of the same cut.
     for (std::size_t i = before, end = out.size(); i < end; ++i) {
       const double box = (out[i].most_column - out[i].least_column + 1.0) * (out[i].most_row - out[i].least_row + 1.0);
@@ -283,7 +283,7 @@ auto regions_of(const Raster& raster, const Options& options) -> std::vector<Reg
       Mask rest(mask.size());
       for (std::size_t k = 0; k < rest.size(); ++k)
         rest[k] = raster.state[k] != Cell::outside && !out[i].mask[k] ? 1 : 0;
-      add_components(raster, opened(raster, rest, by), options.least_area, o.seen_share, out);
+      add_components(raster, opened(raster, rest, by), options.cuts.min_area, o.seen_share, out);
     }
   }
   return out;
@@ -302,7 +302,7 @@ auto regions_of_planes(const Raster& raster, const OnPlanes& points, double leas
     Mask mask(label.size());
     for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = label[k] == plane ? 1 : 0;
     add_components(raster, opened(raster, mask, half_width(raster, options)),
-                   options.regions.min_area_share * options.least_area, 0, out);
+                   options.regions.min_area_share * options.cuts.min_area, 0, out);
   }
   return out;
 }

@@ -153,7 +153,7 @@ auto gains_of(const Raster& raster, const std::vector<Crossing>& crossings, cons
     -> std::vector<double> {
   const Sums sums = sums_of(raster);
   const auto count = static_cast<std::size_t>(raster.columns);
-  const double first = -raster.spacing / 2, least_cells = options.least_area / raster.cell_area();
+  const double first = -raster.spacing / 2, least_cells = options.cuts.min_area / raster.cell_area();
   std::vector<std::uint8_t> asked(count + 1, 0);
   for (std::size_t i = 0; i < count; ++i)
     asked[i] = (crossings[i].step || crossings[i].valley) && sums.area[i] >= least_cells &&
