@@ -28,7 +28,7 @@ auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Option
     std::ranges::move(one.pieces, std::back_inserter(pieces));
     std::ranges::move(one.rest.parts, std::back_inserter(out.parts));
     std::ranges::move(one.rest.failed, std::back_inserter(out.failed));
-    if (one.ended_early) out.ended_early.push_back(drafts[groups[g].front()].owner);
+    out.searches.emplace_back(drafts[groups[g].front()].owner, one.search);
   }
   if (options.effort != Effort::caps) detail::make_alike(pieces, work);
   std::vector<std::vector<detail::Piece>> made(pieces.size());
