@@ -46,7 +46,11 @@ auto codes() -> std::vector<base::Code> {
   return {{"refine-bound",
            "The search for a building's roofs ended at the bound of its work, which grows with the building; the best "
            "roofs that it had by then are used.",
-           "Look at the building. Divide its footprint, or give it fewer corners.", 0}};
+           "Look at the building. Divide its footprint, or give it fewer corners.", 0},
+          {"refine-kind", "The outline of a part takes no roof of this kind.",
+           "Choose another roof, or split the part.", 2},
+          {"refine-unseen", "A roof was to be fitted to the scan, which does not cover the part.",
+           "Give the roof its heights by hand.", 2}};
 }
 
 }  // namespace mansard::refine
