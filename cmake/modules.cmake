@@ -36,9 +36,9 @@ mansard_module(align    DEPENDS base geometry)
 mansard_module(roof     DEPENDS base geometry model extrude)
 mansard_module(terrain  DEPENDS base geometry model solid)
 mansard_module(picture  DEPENDS base geometry rays                              USES PNG::PNG)
-mansard_module(report   DEPENDS base geometry rays model accuracy solid formats texture sweep fracture segment label evaluate confidence compare picture USES nlohmann_json TESTED_WITH pipeline)
+mansard_module(report   DEPENDS base geometry rays model accuracy solid formats texture sweep fracture segment refine label evaluate confidence compare picture USES nlohmann_json TESTED_WITH pipeline)
 mansard_module(pipeline DEPENDS base geometry rays solver model solid crs formats cloud ingest block accuracy vegetation slice sweep fracture segment profile extrude planes refine label evaluate confidence compare derive align roof terrain picture report texture)
-mansard_module(edit     DEPENDS base geometry rays model solid formats ingest extrude label evaluate report pipeline USES nlohmann_json)
+mansard_module(edit     DEPENDS base geometry rays model solid formats ingest extrude refine label evaluate report pipeline USES nlohmann_json)
 
 # Experiments: used by the programs and the tests, not part of what is installed.
 mansard_module(simulate IN lab DEPENDS base geometry rays model solid formats ingest extrude label USES nlohmann_json)

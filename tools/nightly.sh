@@ -12,6 +12,8 @@
 #   kills       runs killed at KILLS (1000) random moments, where a test run has 50: results have the bytes of an undisturbed run
 #   fixed_point models of data and of simulated blocks, scanned perfectly and reconstructed again, have the same planes and
 #               volume: tools/fixed_point.py. Models and lists of the buildings that differ: build/nightly/fixed_point
+#   outlines    OUTLINES (30000) random footprints of every ugly kind extruded: tools/outlines.py. Files with a fault:
+#               build/nightly/outlines
 #   clean       `make demo` and `make test` in a new Debian 12: tools/clean_debian.sh, as root. CLEAN has its options, for
 #               example CLEAN="--ccache /var/cache/ccache"
 # The tests in browsers (ctest's label `browser`) test the page, which is the same whatever compiled the program. They run in the
@@ -24,7 +26,7 @@
 set -euo pipefail
 {  # bash reads all of it before it begins: the checkout may change meanwhile
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-all=(debug asan clang firefox headers tidy fuzz properties kills fixed_point clean)
+all=(debug asan clang firefox headers tidy fuzz properties kills fixed_point outlines clean)
 declare -A meaning=(
   [debug]="not optimised, standard library's assertions: all tests but those in browsers"
   [asan]="address and undefined behaviour sanitizers: all tests but those in browsers"
@@ -36,6 +38,7 @@ declare -A meaning=(
   [properties]="extrusion kernel: ${RUNS:=100000} random plans"
   [kills]="runs killed at ${KILLS:=1000} random moments"
   [fixed_point]="models scanned perfectly and reconstructed again have the same planes and volume: one result an input"
+  [outlines]="${OUTLINES:=30000} random footprints of every ugly kind, in every format: one result a file"
   [clean]="\`make demo\` and \`make test\` in a new Debian 12")
 lanes=("$@")
 [[ $# -gt 0 ]] || lanes=("${all[@]}")
@@ -121,6 +124,11 @@ run_fixed_point() {
     tools/fixed_point.py build/release/bin/mansard "$logs/fixed_point" data/hall data/delft data/b9 \
       {terrace,perimeter,courtyard,towers,detached}:{1,3,5}
 }
+run_outlines() {
+  tools/setup.sh build && cmake --preset release --log-level=WARNING &&
+    cmake --build --preset release --target mansard -j "$jobs" &&
+    tools/outlines.py build/release/bin/mansard "$logs/outlines" --count "$OUTLINES" --seed "${SEED:-$(date +%Y%m%d)}"
+}
 # shellcheck disable=SC2086  # CLEAN is several words
 run_clean() { tools/clean_debian.sh ${CLEAN:-}; }
 
@@ -130,8 +138,10 @@ results_of() {  # lane
     function add(name) { if (!(name in seen)) names = names (names == "" ? "" : ",") name; seen[name] = 1 }
     lane == "fuzz" && /^fuzz: [a-z_]+: passed$/ { ++passed }
     lane == "fuzz" && /^fuzz: [a-z_]+: failed$/ { ++failed; sub(":", "", $2); add($2) }
-    lane ~ /^(headers|tidy|fixed_point)$/ && /^(check_headers|tidy|fixed_point): [^ ]+: passed$/ { ++passed }
-    lane ~ /^(headers|tidy|fixed_point)$/ && /^(check_headers|tidy|fixed_point): [^ ]+: failed$/ { ++failed; sub(":", "", $2); add($2) }
+    lane ~ /^(headers|tidy|fixed_point|outlines)$/ && /^(check_headers|tidy|fixed_point|outlines): [^ ]+: passed$/ { ++passed }
+    lane ~ /^(headers|tidy|fixed_point|outlines)$/ && /^(check_headers|tidy|fixed_point|outlines): [^ ]+: failed$/ {
+      ++failed; sub(":", "", $2); add($2)
+    }
     lane ~ /^(properties|kills)$/ && /^\[  PASSED  \] [0-9]+ test/ { passed += $4 }
     lane ~ /^(properties|kills)$/ && /^\[  FAILED  \] [0-9]+ test/ { failed += $4; next }
     lane ~ /^(properties|kills)$/ && /^\[  FAILED  \] / { sub(",", "", $4); add($4) }

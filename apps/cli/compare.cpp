@@ -93,8 +93,10 @@ auto write_changed(model::City models, const report::Changes& changes, const std
   base::Outputs outputs;
   const auto written = write_models(models, targets, options, outputs);
   if (!written) return written.failure();
-  for (const auto& warning : *written) progress.say(base::to_string(warning));
-  return outputs.commit(run.cancel);
+  for (const auto& warning : written->warnings) progress.say(base::to_string(warning));
+  if (auto committed = outputs.commit(run.cancel); !committed) return committed;
+  if (written->missing.empty()) return {};
+  return base::Failure{reasons_of(written->missing, targets)};
 }
 
 auto write_results(const CompareRequest& request, const report::Changes& changes, const base::Run& run)

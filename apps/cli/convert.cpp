@@ -2,6 +2,7 @@
 // producers in those that need no plans.
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 
 #include "apps/cli/catalogue.hpp"
@@ -93,19 +94,58 @@ auto is_enough(const formats::CityReader& reader, const Target& target, const fo
   }
 }
 
-/// One building after the other: memory does not grow with their number.
-auto pass_on(formats::CityReader& reader, const Writers& writers, const base::Run& run) -> base::Result<void> {
-  for (;;) {
+/// One building after the other to all targets: memory does not grow with their number. As formats::write_each, but
+/// reads once.
+auto pass_on(formats::CityReader& reader, const std::vector<Target>& targets, const formats::Header& header,
+             const formats::WriteOptions& options, const std::vector<formats::Layer>& layers, base::Outputs& outputs,
+             const base::Run& run) -> base::Result<formats::Written> {
+  formats::Written out;
+  struct Open {
+    const Target* target = nullptr;
+    std::unique_ptr<base::Outputs> outputs;
+    std::unique_ptr<formats::CityWriter> writer;
+  };
+  std::vector<Open> open;
+  for (const auto& target : targets) {
+    auto own = std::make_unique<base::Outputs>();
+    auto writer = formats::open_writer(target.format, target.path, header, options, *own, layers);
+    if (writer) open.push_back({&target, std::move(own), std::move(*writer)});
+    else out.missing.push_back({target, writer.error()});
+  }
+  const auto each = [&](auto step) {
+    std::erase_if(open, [&](Open& one) {
+      const base::Result<void> done = step(*one.writer);
+      if (!done) out.missing.push_back({*one.target, done.error()});
+      return !done;
+    });
+  };
+  while (!open.empty()) {
     if (run.cancelled()) return base::stopped();
     const auto building = reader.next();
     if (!building) return building.failure();
     if (!*building) break;
-    for (const auto& writer : writers)
-      if (auto added = writer->add(**building); !added) return added;
+    each([&](formats::CityWriter& writer) { return writer.add(**building); });
   }
-  for (const auto& writer : writers)
-    if (auto finished = writer->finish(); !finished) return finished;
-  return {};
+  each([](formats::CityWriter& writer) { return writer.finish(); });
+  if (open.empty()) return out.missing.front().why;
+  for (auto& one : open) {
+    std::ranges::move(one.writer->warnings(), std::back_inserter(out.warnings));
+    one.writer.reset();
+    outputs.take(std::move(*one.outputs));
+  }
+  return out;
+}
+
+/// The files take their places; what is there is named, and then what is not.
+auto finish(const formats::Written& written, const ConvertRequest& request, const std::vector<Target>& targets,
+            base::Outputs& outputs, const base::Run& run, Progress& progress) -> int {
+  for (const auto& warning : written.warnings) progress.say(base::to_string(warning));
+  if (auto committed = outputs.commit(run.cancel); !committed) return give_up(committed.errors());
+  for (const auto& target : targets)
+    if (std::ranges::none_of(written.missing, [&](const auto& one) { return one.target.path == target.path; }))
+      std::printf("%s\n", formats::name_to_show(target.path).c_str());
+  if (written.missing.empty()) return all_done;
+  return give_up(reasons_of(written.missing, {{formats::Format::plans, request.input}}));
 }
 
 /// CityJSON, CityJSONSeq and CityGML by their names, which other producers' files have too.
@@ -137,10 +177,7 @@ auto convert_foreign(const ConvertRequest& request, const std::vector<Target>& t
   base::Outputs outputs;
   const auto written = formats::write_models(foreign->city, targets, options.write, outputs);
   if (!written) return give_up(written.errors());
-  for (const auto& warning : *written) progress.say(base::to_string(warning));
-  if (auto committed = outputs.commit(run.cancel); !committed) return give_up(committed.errors());
-  for (const auto& target : targets) std::printf("%s\n", formats::name_to_show(target.path).c_str());
-  return all_done;
+  return finish(*written, request, targets, outputs, run, progress);
 }
 
 auto convert(const ConvertRequest& request, const base::Cancel& cancel) -> int {
@@ -163,15 +200,12 @@ auto convert(const ConvertRequest& request, const base::Cancel& cancel) -> int {
   if (!beside) return give_up(beside.errors());
   for (const auto& warning : beside->warnings) progress.say(base::to_string(warning));
   base::Outputs outputs;
+  base::Result<formats::Written> written{formats::Written()};
   bool all_full = true;
   const bool has_all =
       std::ranges::all_of(*targets, [&](const Target& target) { return is_enough(**reader, target, options.write); });
   if (has_all && pipeline::same_options(header.made_by, options)) {
-    const auto writers = open_writers(*targets, header, options.write, outputs, beside->layers);
-    if (!writers) return give_up(writers.errors());
-    if (auto passed = pass_on(**reader, *writers, run); !passed) return give_up(passed.errors());
-    for (const auto& writer : *writers)
-      for (const auto& warning : writer->warnings()) progress.say(base::to_string(warning));
+    written = pass_on(**reader, *targets, header, options.write, beside->layers, outputs, run);
   } else {
     progress.show("extrude", request.input, 0);
     const auto raised = pipeline::read_raised(**reader, options, run);
@@ -181,13 +215,11 @@ auto convert(const ConvertRequest& request, const base::Cancel& cancel) -> int {
     for (const auto& part : raised->refused) std::fprintf(stderr, "mansard: %s\n", base::to_string(part).c_str());
     for (const auto& remark : raised->remarks) progress.say(base::to_string(remark));
     all_full = raised->fell_short.empty() && raised->refused.empty();
-    const auto written = write_models(raised->city, *targets, options.write, outputs, beside->layers);
-    if (!written) return give_up(written.errors());
-    for (const auto& warning : *written) progress.say(base::to_string(warning));
+    written = write_models(raised->city, *targets, options.write, outputs, beside->layers);
   }
-  if (auto committed = outputs.commit(run.cancel); !committed) return give_up(committed.errors());
-  for (const auto& target : *targets) std::printf("%s\n", formats::name_to_show(target.path).c_str());
-  return all_full ? all_done : some_fell_back;
+  if (!written) return give_up(written.errors());
+  const int code = finish(*written, request, *targets, outputs, run, progress);
+  return code == all_done && !all_full ? some_fell_back : code;
 }
 
 }  // namespace

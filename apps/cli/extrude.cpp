@@ -33,6 +33,8 @@ auto is_one(const fs::path& out) -> bool {
   return out.extension() == ".3dtiles" || out.filename() == "tileset.json";
 }
 
+}  // namespace
+
 auto targets_of(const ExtrudeRequest& request) -> base::Result<std::vector<Target>> {
   if (!is_one(request.out)) {
     const auto formats = formats_in(request.formats.empty() ? "default" : request.formats);
@@ -47,6 +49,8 @@ auto targets_of(const ExtrudeRequest& request) -> base::Result<std::vector<Targe
   if (!target) return target.failure();
   return std::vector{*target};
 }
+
+namespace {
 
 void tell(const std::vector<base::Diagnostic>& diagnostics, const ExtrudeRequest& request) {
   for (const auto& diagnostic : diagnostics)
@@ -87,9 +91,10 @@ auto extrude_plans(formats::CityReader& reader, const ExtrudeRequest& request, c
   for (const auto& part : raised->fell_short) tell(part.reasons, request);
   tell(raised->remarks, request);
   tell(beside->warnings, request);
-  if (auto written = write_out(raised->city, options, request, run, beside->layers); !written)
-    return give_up(written.errors());
+  const auto missing = write_out(raised->city, options, request, run, beside->layers);
+  if (!missing) return give_up(missing.errors());
   if (*folder) (*folder)->finished_without_kept();
+  if (!missing->empty()) return give_up(reasons_of(*missing, *targets));
   std::printf("%s\n", formats::name_to_show(request.out).c_str());
   return raised->fell_short.empty() && refused.empty() ? all_done : some_fell_back;
 }
@@ -169,27 +174,28 @@ auto write_picture(const model::City& city, const ExtrudeRequest& request, const
 }  // namespace
 
 auto write_out(const model::City& city, const pipeline::Options& options, const ExtrudeRequest& request,
-               const base::Run& run, const std::vector<formats::Layer>& more) -> base::Result<void> {
+               const base::Run& run, const std::vector<formats::Layer>& more) -> base::Result<Missing> {
   const auto targets = targets_of(request);
   if (!targets) return targets.failure();
   base::Outputs outputs;
-  const auto warnings = write_models(city, *targets, options.write, outputs, more);
-  if (!warnings) return warnings.failure();
-  tell(*warnings, request);
+  auto written = write_models(city, *targets, options.write, outputs, more);
+  if (!written) return written.failure();
+  tell(written->warnings, request);
   if (request.picture)
-    if (auto written = write_picture(city, request, run, outputs); !written) return written;
-  return outputs.commit(run.cancel);
+    if (auto drawn = write_picture(city, request, run, outputs); !drawn) return drawn.failure();
+  if (auto committed = outputs.commit(run.cancel); !committed) return committed.failure();
+  return std::move(written->missing);
 }
 
 auto write_out(const Made& made, const model::Scene& scene, const pipeline::Options& options,
-               const ExtrudeRequest& request, const base::Run& run, Progress& progress) -> base::Result<Unwritten> {
+               const ExtrudeRequest& request, const base::Run& run, Progress& progress) -> base::Result<Missing> {
   const auto targets = targets_of(request);
   if (!targets) return targets.failure();
   base::Outputs outputs;
   std::vector<formats::Layer> layers;
   if (auto overlaps = report::overlaps_layer(made.summary)) layers.push_back(std::move(*overlaps));
-  auto unwritten = write_targets(made, *targets, options.write, layers, outputs, run, progress);
-  if (!unwritten) return unwritten.failure();
+  auto missing = write_targets(made, *targets, options.write, layers, outputs, run, progress);
+  if (!missing) return missing.failure();
   if (auto written = request.terrain.write(made, scene, nullptr, options, outputs, run, progress); !written)
     return written.failure();
   std::vector<fs::path> reports;
@@ -207,7 +213,7 @@ auto write_out(const Made& made, const model::Scene& scene, const pipeline::Opti
     if (!all) return all.failure();
   }
   if (auto committed = outputs.commit(run.cancel); !committed) return committed.failure();
-  return unwritten;
+  return missing;
 }
 
 auto extrude_verb(CLI::App& app, const base::Cancel& cancel) -> Verb {

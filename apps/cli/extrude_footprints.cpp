@@ -51,7 +51,7 @@ auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cance
   auto scene = ingest::read_footprints(request.input, options.ingest, run);
   if (!scene) return give_up(scene.errors());
   for (const auto& warning : scene->warnings) progress.say(base::to_string(warning));
-  if (auto joined = request.join.apply(*scene, progress); !joined) return give_up(joined.errors());
+  if (auto joined = request.join.apply(*scene, options.ingest, progress); !joined) return give_up(joined.errors());
 
   pipeline::Schedule schedule;
   if (kept != nullptr) schedule = {request.no_resume ? nullptr : kept->kept(), &kept->tally()};
@@ -66,11 +66,12 @@ auto extrude_footprints(const ExtrudeRequest& request, const base::Cancel& cance
   const auto made = made_of(*city);
   for (const auto& warning : made.summary.warnings) progress.say(base::to_string(warning));
   run.report("write", formats::name_to_show(request.out), 1);
-  const auto unwritten = write_out(made, *scene, options, request, run, progress);
-  if (!unwritten) return stopped(unwritten);
-  if (unwritten->why.empty() && kept != nullptr) city->tasks > 0 ? kept->finished() : kept->finished_without_kept();
+  const auto missing = write_out(made, *scene, options, request, run, progress);
+  if (!missing) return stopped(missing);
+  if (missing->empty() && kept != nullptr) city->tasks > 0 ? kept->finished() : kept->finished_without_kept();
   if (auto done = summarise(made, city->tasks, request, progress); !done) return stopped(done);
-  if (!unwritten->why.empty()) return give_up(unwritten->why);
+  if (!missing->empty())
+    if (const auto targets = targets_of(request)) return give_up(reasons_of(*missing, *targets));
   std::printf("%s\n", formats::name_to_show(request.out).c_str());
   return made.outcomes.full == made.outcomes.all() ? all_done : some_fell_back;
 }

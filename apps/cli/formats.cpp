@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/cli/output.hpp"
+#include "apps/cli/shell_word.hpp"
 #include "mansard/formats/input_name.hpp"
 
 namespace mansard::cli {
@@ -187,16 +188,21 @@ auto target_free(const Target& target, bool overwrite) -> base::Result<void> {
   return {};
 }
 
-auto open_writers(const std::vector<Target>& targets, const formats::Header& header,
-                  const formats::WriteOptions& options, base::Outputs& outputs, const std::vector<formats::Layer>& more)
-    -> base::Result<Writers> {
-  Writers writers;
-  for (const auto& target : targets) {
-    auto writer = formats::open_writer(target.format, target.path, header, options, outputs, more);
-    if (!writer) return writer.failure();
-    writers.push_back(std::move(*writer));
+auto reasons_of(const Missing& missing, const std::vector<Target>& sources) -> std::vector<base::Diagnostic> {
+  const auto is_missing = [&](const Target& target) {
+    return std::ranges::any_of(missing, [&](const auto& one) { return one.target.path == target.path; });
+  };
+  const auto source = std::ranges::find_if(
+      sources, [&](const Target& target) { return target.format != formats::Format::stl && !is_missing(target); });
+  std::vector<base::Diagnostic> out;
+  for (const auto& [target, why] : missing) {
+    auto& told = out.emplace_back(why);
+    told.message += "; there is no " + target.path.filename().string() + ", and the other results are complete";
+    if (source != sources.end())
+      told.message += "; once this is corrected, run: mansard convert " + quoted(source->path.string()) + " -o " +
+                      quoted(target.path.string());
   }
-  return writers;
+  return out;
 }
 
 auto write_bytes(const fs::path& path, std::string_view bytes, base::Outputs& outputs) -> base::Result<void> {

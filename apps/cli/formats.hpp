@@ -60,11 +60,11 @@ inline constexpr auto formats_help = "Formats of the models: a list with commas,
 /// that would be lost. Fails with "output-exists", "file-write".
 [[nodiscard]] auto target_free(const Target& target, bool overwrite) -> base::Result<void>;
 
-using Writers = std::vector<std::unique_ptr<formats::CityWriter>>;
-/// One writer per target, in order. Fails as formats::open_writer does.
-[[nodiscard]] auto open_writers(const std::vector<Target>& targets, const formats::Header& header,
-                                const formats::WriteOptions& options, base::Outputs& outputs,
-                                const std::vector<formats::Layer>& more = {}) -> base::Result<Writers>;
+/// Targets of which there is no file, because the models cannot be written as their format needs it.
+using Missing = std::vector<formats::Written::Missing>;
+/// Why there is no file of each, with the command that makes it from one of `sources`, the first that can be read back.
+[[nodiscard]] auto reasons_of(const Missing& missing, const std::vector<Target>& sources)
+    -> std::vector<base::Diagnostic>;
 /// One file as a whole.
 [[nodiscard]] auto write_bytes(const std::filesystem::path& path, std::string_view bytes, base::Outputs& outputs)
     -> base::Result<void>;

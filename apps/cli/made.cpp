@@ -4,7 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "apps/cli/shell_word.hpp"
 #include "mansard/base/stopped.hpp"
 
 namespace mansard::cli {
@@ -60,50 +59,22 @@ auto in_words(const report::Reuse& reuse, std::size_t all, const std::string& un
          (again.empty() ? "" : "; made again because of what changed: " + again);
 }
 
-namespace {
-
-auto write_target(const Made& made, const Target& target, const formats::WriteOptions& options,
-                  const std::vector<formats::Layer>& layers, base::Outputs& outputs, const base::Run& run,
-                  Progress& progress) -> base::Result<void> {
-  auto writer = formats::open_writer(target.format, target.path, {made.frame, made.made_by}, options, outputs, layers);
-  if (!writer) return writer.failure();
-  auto written = made.each([&](const model::Building& building, const auto&) -> base::Result<void> {
-    if (run.cancelled()) return base::stopped();
-    return (*writer)->add(building);
-  });
-  if (written) written = (*writer)->finish();
-  if (!written) return written;
-  for (const auto& warning : (*writer)->warnings()) progress.say(base::to_string(warning));
-  return {};
-}
-
-}  // namespace
-
 auto write_targets(const Made& made, const std::vector<Target>& targets, const formats::WriteOptions& options,
                    const std::vector<formats::Layer>& layers, base::Outputs& outputs, const base::Run& run,
-                   Progress& progress) -> base::Result<Unwritten> {
-  Unwritten out;
-  const Target* source = nullptr;       // one that can be read back
-  for (const auto& target : targets) {  // one after the other: each writer may put bytes aside
-    const auto before = outputs.count();
-    const auto written = write_target(made, target, options, layers, outputs, run, progress);
-    if (written) {
-      if (source == nullptr && target.format != formats::Format::stl) source = &target;
-      continue;
-    }
-    if (run.cancelled() || targets.size() == 1) return written.failure();
-    outputs.take_away(before);
-    out.why.push_back(written.error());
-    out.files.push_back(target.path);
-  }
-  if (out.why.size() == targets.size()) return out.why.front();
-  for (std::size_t i = 0; i < out.why.size(); ++i) {
-    out.why[i].message += "; there is no " + out.files[i].filename().string() + ", and the other results are complete";
-    if (source != nullptr)
-      out.why[i].message += "; once this is corrected, run: mansard convert " + quoted(source->path.string()) + " -o " +
-                            quoted(out.files[i].string());
-  }
-  return out;
+                   Progress& progress) -> base::Result<Missing> {
+  auto written = formats::write_each(
+      targets, {made.frame, made.made_by}, options, layers,
+      [&](formats::CityWriter& writer) -> base::Result<void> {
+        auto added = made.each([&](const model::Building& building, const auto&) -> base::Result<void> {
+          if (run.cancelled()) return base::stopped();
+          return writer.add(building);
+        });
+        return added ? writer.finish() : added;
+      },
+      outputs);
+  if (!written) return written.failure();
+  for (const auto& warning : written->warnings) progress.say(base::to_string(warning));
+  return std::move(written->missing);
 }
 
 auto textures_of(const Made& made, const std::vector<std::filesystem::path>& meshes, const pipeline::Options& options,

@@ -36,19 +36,12 @@ struct Made {
 /// where there was none. `units` are what is kept, `all` of them the run has.
 [[nodiscard]] auto in_words(const report::Reuse& reuse, std::size_t all, const std::string& units) -> std::string;
 
-/// Formats of which there is no file, because what is in the models cannot be written as they need it.
-struct Unwritten {
-  std::vector<std::filesystem::path> files;
-  std::vector<base::Diagnostic> why;
-};
-
 /// The models; the files are there after Outputs::commit. What could not be written as it was meant is said. Returns
-/// why there is no file of some format, with the command that makes it from the others: what one format cannot hold is
-/// not the others' loss. Fails as the writers do where there is none of any format, and with "cancelled".
+/// what there is no file of, as formats::write_each does, and fails as that.
 [[nodiscard]] auto write_targets(const Made& made, const std::vector<Target>& targets,
                                  const formats::WriteOptions& options, const std::vector<formats::Layer>& layers,
                                  base::Outputs& outputs, const base::Run& run, Progress& progress)
-    -> base::Result<Unwritten>;
+    -> base::Result<Missing>;
 
 /// The buildings with their textures, and without them where these are not asked for; `meshes` are those that the scene
 /// was read from. What could not be read of them is said. Fails as texture::bake_all.

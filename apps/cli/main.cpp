@@ -21,6 +21,7 @@
 #include "apps/cli/verbs.hpp"
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/given.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 
 namespace mansard::cli {
@@ -151,6 +152,17 @@ auto with_flags_closed(const std::vector<Verb>& verbs, int argc, char** argv) ->
   return words;
 }
 
+/// Of whatever is read, before the verb begins. Outputs are checked by the verbs.
+auto check_inputs(const std::vector<std::string>& typed) -> base::Result<void> {
+  for (std::size_t i = 2; i < typed.size(); ++i) {
+    if (typed[i - 1] == "-o" || typed[i - 1] == "--output") continue;
+    const auto value = typed[i].starts_with("--") ? typed[i].find('=') : std::string::npos;
+    const auto word = value == std::string::npos ? typed[i] : typed[i].substr(value + 1);
+    if (auto checked = formats::check_given(word); !checked) return checked;
+  }
+  return {};
+}
+
 auto run(int argc, char** argv) -> int {
   CLI::App app("", "mansard");
   app.set_version_flag("--version", std::string("mansard ") + MANSARD_VERSION);
@@ -204,6 +216,7 @@ auto run(int argc, char** argv) -> int {
     if (const auto more = left_over(*verb.app); !more.empty())
       return give_up(
           base::error("usage", "unexpected argument; see 'mansard " + verb.app->get_name() + " --help'", more.front()));
+    if (const auto ready = check_inputs(typed); !ready) return give_up(ready.errors());
     if (verb.app->get_name() == "serve") go_on_without_memory();  // and it ends in its own time
     else stop_in_time();
     return verb.run();

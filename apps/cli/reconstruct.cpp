@@ -106,7 +106,7 @@ auto is_result(const std::string& name) -> bool {
 
 auto write_all(const ReconstructRequest& request, const std::vector<Target>& targets, const pipeline::Options& options,
                const Made& made, const ingest::CityScene& city, const base::Run& run, Progress& progress)
-    -> base::Result<Unwritten> {
+    -> base::Result<Missing> {
   const auto& scene = city.scene;
   base::Outputs outputs;
   std::vector<formats::Layer> layers;
@@ -122,9 +122,9 @@ auto write_all(const ReconstructRequest& request, const std::vector<Target>& tar
     baked = std::move(*done);
   }
   progress.show("write", "", 1);
-  auto unwritten = write_targets(baked.textures ? with_textures(made, *baked.textures) : made, targets, options.write,
-                                 layers, outputs, run, progress);
-  if (!unwritten) return unwritten.failure();
+  auto missing = write_targets(baked.textures ? with_textures(made, *baked.textures) : made, targets, options.write,
+                               layers, outputs, run, progress);
+  if (!missing) return missing.failure();
   if (auto written = request.terrain.write(made, scene, city.cells.get(), options, outputs, run, progress); !written)
     return written.failure();
   const auto report_path = fs::path(request.out) / "run.json";
@@ -140,7 +140,7 @@ auto write_all(const ReconstructRequest& request, const std::vector<Target>& tar
   if (auto written = outputs.commit(run.cancel); !written) return written.failure();
   std::vector<fs::path> results{report_path};
   for (const auto& target : targets) {
-    if (std::ranges::find(unwritten->files, target.path) != unwritten->files.end()) continue;
+    if (std::ranges::any_of(*missing, [&](const auto& one) { return one.target.path == target.path; })) continue;
     for (const auto& place : places_of(target)) results.push_back(place);
     if (options.texture.bake)
       if (const auto folder = formats::textures_of(target)) results.push_back(*folder);
@@ -148,7 +148,7 @@ auto write_all(const ReconstructRequest& request, const std::vector<Target>& tar
   if (request.picture)
     for (const auto* name : picture_names) results.push_back(fs::path(request.out) / name);
   remove_stale(left, results);
-  return unwritten;
+  return missing;
 }
 
 /// Everything that can be wrong with the outputs, before any work.
@@ -227,11 +227,11 @@ auto reconstruct(const ReconstructRequest& request, const base::Cancel& cancel) 
     return all_done;
   }
   const auto finish = [&](const Made& made) -> int {
-    const auto unwritten = write_all(request, *targets, *options, made, *city, run, progress);
-    if (!unwritten) return stopped(unwritten);
-    if (unwritten->why.empty()) (*folder)->finished();
+    const auto missing = write_all(request, *targets, *options, made, *city, run, progress);
+    if (!missing) return stopped(missing);
+    if (missing->empty()) (*folder)->finished();
     if (auto done = summarise(made, request, progress); !done) return stopped(done);
-    if (!unwritten->why.empty()) return give_up(unwritten->why);
+    if (!missing->empty()) return give_up(reasons_of(*missing, *targets));
     std::printf("%s\n", targets->front().path.c_str());
     if (request.picture) std::printf("%s\n", (fs::path(request.out) / "picture.png").c_str());
     if (request.layers) std::printf("%s\n", (fs::path(request.out) / "model.gpkg").c_str());

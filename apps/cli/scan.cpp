@@ -61,11 +61,11 @@ void Join::add_to(CLI::App& verb) {
   verb.add_option("--on", key, "Column of the table of --join that has the ids of the buildings")->type_name("KEY");
 }
 
-auto Join::apply(model::Scene& scene, Progress& progress) const -> base::Result<void> {
+auto Join::apply(model::Scene& scene, const ingest::Options& options, Progress& progress) const -> base::Result<void> {
   if (table.empty() && key.empty()) return {};
   if (table.empty()) return base::error("usage", "there is no table to join; name it with --join", "--on");
   if (key.empty()) return base::error("usage", "name the column that has the ids of the buildings with --on", "--join");
-  const auto warnings = ingest::join(scene, table, key);
+  const auto warnings = ingest::join(scene, table, key, options.encoding);
   if (!warnings) return warnings.failure();
   for (const auto& warning : *warnings) progress.say(base::to_string(warning));
   return {};
@@ -216,7 +216,7 @@ auto read_scan(const ScanRequest& request, pipeline::Options& options, const bas
   if (!scene) return explained(scene.failure(), request, options, run, progress);
   prepend(*std::move(aligned), scene->warnings);
   tell(request, *scene, progress);
-  if (auto joined = request.join.apply(*scene, progress); !joined) return joined.failure();
+  if (auto joined = request.join.apply(*scene, options.ingest, progress); !joined) return joined.failure();
   return scene;
 }
 
@@ -229,7 +229,7 @@ auto read_city_scan(const ScanRequest& request, pipeline::Options& options, cons
   if (!city) return explained(city.failure(), request, options, run, progress);
   prepend(*std::move(aligned), city->scene.warnings);
   tell(request, city->scene, progress);
-  if (auto joined = request.join.apply(city->scene, progress); !joined) return joined.failure();
+  if (auto joined = request.join.apply(city->scene, options.ingest, progress); !joined) return joined.failure();
   return city;
 }
 

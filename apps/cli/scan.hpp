@@ -35,7 +35,8 @@ struct Join {
   std::string table, key;
   void add_to(CLI::App& verb);
   /// Fails with "usage" where one of the two is missing, and as ingest::join. Prints its warnings.
-  [[nodiscard]] auto apply(model::Scene& scene, Progress& progress) const -> base::Result<void>;
+  [[nodiscard]] auto apply(model::Scene& scene, const ingest::Options& options, Progress& progress) const
+      -> base::Result<void>;
 };
 
 struct ScanRequest : Common {

@@ -61,11 +61,20 @@ auto export_to(const fs::path& folder, const model::City& city, const formats::W
   const auto targets = formats::targets_in(folder, formats);
   Exported out;
   base::Outputs outputs;
-  auto warnings = formats::write_models(city, targets, options, outputs);
-  if (!warnings) return warnings.error();
-  out.warnings = std::move(*warnings);
-  for (const auto& target : targets)
+  auto written = formats::write_models(city, targets, options, outputs);
+  if (!written) return written.error();
+  out.warnings = std::move(written->warnings);
+  for (const auto& [target, why] : written->missing) {
+    out.warnings.push_back(why);
+    out.warnings.back().message += "; there is no " + target.path.filename().string();
+  }
+  const auto is_missing = [&](const formats::Target& target) {
+    return std::ranges::any_of(written->missing, [&](const auto& one) { return one.target.path == target.path; });
+  };
+  for (const auto& target : targets) {
+    if (is_missing(target)) continue;
     for (const auto& place : formats::places_of(target)) out.files.push_back(place.filename().string());
+  }
   if (layers) {
     auto sink = outputs.file(folder / run_layers);
     if (!sink) return sink.error();

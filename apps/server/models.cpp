@@ -1,9 +1,11 @@
 #include "apps/server/models.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "apps/server/model_boxes.hpp"
+#include "mansard/edit/roofs.hpp"
 
 namespace mansard::server {
 namespace {
@@ -87,7 +89,10 @@ auto Models::preview(const std::vector<edit::Change>& changes, const OpenScene* 
   for (const auto& change : changes) {
     const auto at = known(change, *now);
     if (!at) return at.error();
-    const auto building = raised(change, *at, changes, *now, scene);
+    auto building = raised(change, *at, changes, *now, scene);
+    if (const auto mesh = scene == nullptr ? nullptr : scene->rays_of(change.building))
+      std::ranges::move(edit::doubts_of(building, now->buildings[*at]->mse, *mesh),
+                        std::back_inserter(building.diagnostics));
     buildings.push_back(json_of(change.building, now->buildings[*at]->revision, change.parts, building));
   }
   return text_of({{"buildings", std::move(buildings)}});

@@ -6,6 +6,7 @@
 //   models_edits.cpp  edits, undo, redo
 //   models_scores.cpp the scores of the edited models
 //   models_kept.cpp   what was measured, kept in the folder of the run
+//   models_roofs.cpp  roofs in one step
 //   models_review.cpp what a person who reviews a building is shown beside it
 #pragma once
 
@@ -73,6 +74,9 @@ class Models {
       -> base::Result<std::string>;
   /// {"buildings": [RaisedBuilding]}: those that were edited, as they were before all edits, with revision 0.
   [[nodiscard]] auto unedited(const OpenScene* scene) const -> std::string;
+  /// {"roofs": …}: plans with the best roofs of a kind for the scan, each among the parts as they are now; applies
+  /// nothing. What cannot have such a roof has none, and says why. Fails with "edit-building", "edit-unseen".
+  [[nodiscard]] auto roofs(const RoofsRequest& request, const OpenScene* scene) const -> base::Result<std::string>;
   /// Proposals. They fail with "edit-building", "edit-part", "edit-split", "edit-merge".
   [[nodiscard]] auto split(const SplitRequest& request) const -> base::Result<std::string>;
   [[nodiscard]] auto merge(const MergeRequest& request) const -> base::Result<std::string>;

@@ -195,6 +195,22 @@ auto read_split(std::string_view body) -> base::Result<SplitRequest> {
   });
 }
 
+auto read_roofs(std::string_view body) -> base::Result<RoofsRequest> {
+  return reading(body, [](const Item& item) {
+    item.object({"kind", "parts"});
+    RoofsRequest request;
+    if (const auto kind = item.member("kind").text(); kind != "fitted") {
+      const auto known = std::ranges::find(refine::kinds, kind, refine::to_string);
+      if (known == refine::kinds.end()) item.member("kind").refuse("fitted, or one of the kinds of roof");
+      request.kind = *known;
+    }
+    item.member("parts").each([&](const Item& part) {
+      request.parts.push_back({part_of(part.object({"building", "part", "plan"})), part.member("plan").plan()});
+    });
+    return request;
+  });
+}
+
 auto read_merge(std::string_view body) -> base::Result<MergeRequest> {
   return reading(body, [](const Item& item) {
     std::vector<PartName> parts;

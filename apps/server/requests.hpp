@@ -13,6 +13,7 @@
 #include "mansard/base/result.hpp"
 #include "mansard/edit/edit.hpp"
 #include "mansard/model/plan.hpp"
+#include "mansard/refine/kinds.hpp"
 
 namespace mansard::server {
 
@@ -51,6 +52,15 @@ struct SplitRequest {
   PartName at;
   std::vector<geometry::Point2> line;
 };
+/// Parts, with the plans that are to get another roof.
+struct RoofsRequest {
+  struct Of {
+    PartName at;
+    model::Plan plan;
+  };
+  std::optional<refine::Kind> kind;  ///< none: the roofs that they have, fitted
+  std::vector<Of> parts;
+};
 using MergeRequest = std::pair<PartName, PartName>;
 
 /// All of these fail with "server-body", and with "write-plan-…" for plans.
@@ -62,6 +72,7 @@ using MergeRequest = std::pair<PartName, PartName>;
 [[nodiscard]] auto read_changes(std::string_view body) -> base::Result<std::vector<edit::Change>>;
 [[nodiscard]] auto read_edit(std::string_view body) -> base::Result<edit::Edit>;
 [[nodiscard]] auto read_split(std::string_view body) -> base::Result<SplitRequest>;
+[[nodiscard]] auto read_roofs(std::string_view body) -> base::Result<RoofsRequest>;
 [[nodiscard]] auto read_merge(std::string_view body) -> base::Result<MergeRequest>;
 [[nodiscard]] auto read_review_request(std::string_view body) -> base::Result<ReviewRequest>;
 [[nodiscard]] auto read_export(std::string_view body) -> base::Result<ExportRequest>;

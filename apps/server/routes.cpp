@@ -140,6 +140,8 @@ auto table() -> std::vector<Route> {
                  [](auto& w, const auto& call, auto changes) { return w.preview(run_of(call), changes); })},
       {"GET", "/api/runs/{run}/unedited", nothing, gives,
        [](auto& w, const auto& call) { return w.unedited(run_of(call)); }},
+      {"POST", "/api/runs/{run}/roofs", sends, gives,
+       with_body(read_roofs, [](auto& w, const auto& call, auto request) { return w.roofs(run_of(call), request); })},
       {"POST", "/api/runs/{run}/split", sends, gives,
        with_body(read_split, [](auto& w, const auto& call, auto request) { return w.split(run_of(call), request); })},
       {"POST", "/api/runs/{run}/merge", sends, gives,

@@ -95,6 +95,7 @@ class Workspace {
   [[nodiscard]] auto section(const std::string& run, const SectionRequest& request) -> Text;
   [[nodiscard]] auto preview(const std::string& run, const std::vector<edit::Change>& changes) -> Text;
   [[nodiscard]] auto unedited(const std::string& run) -> Text;
+  [[nodiscard]] auto roofs(const std::string& run, const RoofsRequest& request) -> Text;
   [[nodiscard]] auto split(const std::string& run, const SplitRequest& request) -> Text;
   [[nodiscard]] auto merge(const std::string& run, const MergeRequest& request) -> Text;
   [[nodiscard]] auto apply(const std::string& run, edit::Edit edit, const std::string& client) -> Text;

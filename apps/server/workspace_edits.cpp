@@ -72,6 +72,11 @@ auto Workspace::unedited(const std::string& run) -> Text {
   return open ? Text((*open)->unedited(scene_now().get())) : Text(open.error());
 }
 
+auto Workspace::roofs(const std::string& run, const RoofsRequest& request) -> Text {
+  const auto open = models(run);
+  return open ? (*open)->roofs(request, scene_now().get()) : Text(open.error());
+}
+
 auto Workspace::split(const std::string& run, const SplitRequest& request) -> Text {
   const auto open = models(run);
   return open ? (*open)->split(request) : Text(open.error());

@@ -117,16 +117,19 @@ class Outputs::File : public Sink {
   int failure_ = 0;
 };
 
-Outputs::~Outputs() { take_away(0); }
-
-void Outputs::take_away(std::size_t after) {
-  for (; entries_.size() > after; entries_.pop_back()) {
+Outputs::~Outputs() {
+  for (; !entries_.empty(); entries_.pop_back()) {
     auto& entry = entries_.back();
     entry.sink.reset();
     std::error_code ignored;
     fs::remove_all(entry.beside, ignored);
     forget_unfinished(entry.beside);
   }
+}
+
+void Outputs::take(Outputs&& other) {
+  std::ranges::move(other.entries_, std::back_inserter(entries_));
+  other.entries_.clear();
 }
 
 auto Outputs::place(const fs::path& path) -> Result<fs::path> {

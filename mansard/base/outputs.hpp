@@ -71,9 +71,8 @@ class Outputs {
   /// The same, as an empty folder. The one at `path`, if any, is replaced as a whole.
   [[nodiscard]] auto folder(const std::filesystem::path& path) -> Result<std::filesystem::path>;
 
-  /// How many files and folders there are; what was added after that many is taken away again.
-  [[nodiscard]] auto count() const -> std::size_t { return entries_.size(); }
-  void take_away(std::size_t after);
+  /// Those of another take their places with these. What it gave out stays valid.
+  void take(Outputs&& other);
 
   /// Everything takes its place. Fails with "file-write", and with "cancelled" where the run is cancelled before.
   [[nodiscard]] auto commit(const Cancel* cancel = nullptr) -> Result<void>;

@@ -1,6 +1,9 @@
 #include "mansard/formats/results.hpp"
 
 #include <algorithm>
+#include <iterator>
+
+#include "mansard/base/stopped.hpp"
 
 namespace mansard::formats {
 
@@ -53,19 +56,32 @@ auto places_of(const Target& target) -> std::vector<fs::path> {
   return {target.path};
 }
 
-auto write_models(const model::City& city, const std::vector<Target>& targets, const WriteOptions& options,
-                  base::Outputs& outputs, const std::vector<Layer>& more)
-    -> base::Result<std::vector<base::Diagnostic>> {
-  const Header header{city.frame, city.made_by};
-  std::vector<base::Diagnostic> warnings;
-  for (const auto& target : targets) {  // one after the other: each may put bytes aside
-    auto writer = open_writer(target.format, target.path, header, options, outputs, more);
-    if (!writer) return writer.error();
-    if (auto written = write_city(city, **writer); !written) return written.error();
-    const auto own = (*writer)->warnings();
-    warnings.insert(warnings.end(), own.begin(), own.end());
+auto write_each(const std::vector<Target>& targets, const Header& header, const WriteOptions& options,
+                const std::vector<Layer>& more, const std::function<base::Result<void>(CityWriter&)>& fill,
+                base::Outputs& outputs) -> base::Result<Written> {
+  Written out;
+  for (const auto& target : targets) {
+    base::Outputs own;  // what was begun of it goes with it
+    auto writer = open_writer(target.format, target.path, header, options, own, more);
+    const auto filled = writer ? fill(**writer) : base::Result<void>(writer.error());
+    if (filled) {
+      std::ranges::move((*writer)->warnings(), std::back_inserter(out.warnings));
+      writer->reset();
+      outputs.take(std::move(own));
+      continue;
+    }
+    if (filled.error().code == base::stopped().code) return filled.failure();
+    out.missing.push_back({target, filled.error()});
   }
-  return warnings;
+  if (!targets.empty() && out.missing.size() == targets.size()) return out.missing.front().why;
+  return out;
+}
+
+auto write_models(const model::City& city, const std::vector<Target>& targets, const WriteOptions& options,
+                  base::Outputs& outputs, const std::vector<Layer>& more) -> base::Result<Written> {
+  return write_each(
+      targets, {city.frame, city.made_by}, options, more,
+      [&city](CityWriter& writer) { return write_city(city, writer); }, outputs);
 }
 
 }  // namespace mansard::formats

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,10 +31,27 @@ struct Target {
 /// Every file or folder that there will be: the library of an OBJ too; but for a folder of textures.
 [[nodiscard]] auto places_of(const Target& target) -> std::vector<std::filesystem::path>;
 
-/// The whole city to every target; the files are there after Outputs::commit. What could not be written as it was
-/// meant, as warnings. Fails as the writers do.
+/// What came of several targets: what one format cannot hold is not the others' loss.
+struct Written {
+  std::vector<base::Diagnostic> warnings;  ///< what could not be written as it was meant
+  struct Missing {
+    Target target;
+    base::Diagnostic why;
+  };
+  std::vector<Missing> missing;  ///< targets of which there will be no file
+};
+
+/// One target after the other, since each writer may put bytes aside. `fill` adds all buildings to a writer and
+/// finishes it. The files are there after Outputs::commit. Fails as the first target does where there is none of any,
+/// and with "cancelled" as `fill`.
+[[nodiscard]] auto write_each(const std::vector<Target>& targets, const Header& header, const WriteOptions& options,
+                              const std::vector<Layer>& more,
+                              const std::function<base::Result<void>(CityWriter&)>& fill, base::Outputs& outputs)
+    -> base::Result<Written>;
+
+/// The same with the whole city.
 [[nodiscard]] auto write_models(const model::City& city, const std::vector<Target>& targets,
                                 const WriteOptions& options, base::Outputs& outputs,
-                                const std::vector<Layer>& more = {}) -> base::Result<std::vector<base::Diagnostic>>;
+                                const std::vector<Layer>& more = {}) -> base::Result<Written>;
 
 }  // namespace mansard::formats

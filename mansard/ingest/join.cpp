@@ -80,8 +80,10 @@ auto layer_with(GDALDataset& file, const std::string& key) -> OGRLayer* {
 
 }  // namespace
 
-auto join(model::Scene& scene, const std::filesystem::path& table, const std::string& key)
+auto join(model::Scene& scene, const std::filesystem::path& table, const std::string& key, const std::string& encoding)
     -> base::Result<std::vector<base::Diagnostic>> {
+  formats::OtherStrings strings(encoding);
+  if (auto known = strings.check(); !known) return known.failure();
   crs::register_gdal();
   const crs::GdalMessages messages;
   std::error_code status;
@@ -112,9 +114,12 @@ auto join(model::Scene& scene, const std::filesystem::path& table, const std::st
   std::vector<std::string> twice;
   for (const auto& feature : *layer) {
     if (!feature->IsFieldSetAndNotNull(key_column)) continue;
-    const std::string id = feature->GetFieldAsString(key_column);
+    std::string id = feature->GetFieldAsString(key_column);
+    strings.take(id, key_name, feature->GetFID());
     auto attributes = formats::attributes_of(*feature);
     std::erase_if(attributes, [&](const auto& one) { return one.first == key_name; });
+    for (auto& [name, value] : attributes)
+      if (auto* text = std::get_if<std::string>(&value)) strings.take(*text, name, feature->GetFID());
     if (!rows.try_emplace(id, Row{std::move(attributes), false}).second) twice.push_back(id);
   }
   if (auto done = confined.check(); !done) return done.error();
@@ -154,6 +159,7 @@ auto join(model::Scene& scene, const std::filesystem::path& table, const std::st
                        table.string());
   }
   std::vector<base::Diagnostic> warnings;
+  if (auto warning = strings.warning(table.string())) warnings.push_back(*std::move(warning));
   std::vector<std::string> unused;
   for (const auto& [id, row] : rows)
     if (!row.used) unused.push_back(id);

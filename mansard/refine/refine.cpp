@@ -28,7 +28,7 @@ auto refine(std::span<const Draft> drafts, const rays::Scene& mesh, const Option
     std::ranges::move(one.pieces, std::back_inserter(pieces));
     std::ranges::move(one.rest.parts, std::back_inserter(out.parts));
     std::ranges::move(one.rest.failed, std::back_inserter(out.failed));
-    if (one.ended_early) out.ended_early.push_back(drafts[groups[g].front()].owner);
+    out.searches.emplace_back(drafts[groups[g].front()].owner, one.search);
   }
   if (options.effort != Effort::caps) detail::make_alike(pieces, work);
   std::vector<std::vector<detail::Piece>> made(pieces.size());
@@ -46,7 +46,11 @@ auto codes() -> std::vector<base::Code> {
   return {{"refine-bound",
            "The search for a building's roofs ended at the bound of its work, which grows with the building; the best "
            "roofs that it had by then are used.",
-           "Look at the building. Divide its footprint, or give it fewer corners.", 0}};
+           "Look at the building. Divide its footprint, or give it fewer corners.", 0},
+          {"refine-kind", "The outline of a part takes no roof of this kind.",
+           "Choose another roof, or split the part.", 2},
+          {"refine-unseen", "A roof was to be fitted to the scan, which does not cover the part.",
+           "Give the roof its heights by hand.", 2}};
 }
 
 }  // namespace mansard::refine

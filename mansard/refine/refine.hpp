@@ -35,11 +35,18 @@ struct Part {
   std::vector<std::string> changes;  ///< what was done to the draft, in words
 };
 
+/// What the search for the roofs of one owner took.
+struct SearchWork {
+  std::uint64_t samples = 0, corners = 0;  ///< of the parts that it began with
+  std::uint64_t work = 0;                  ///< in units of 10 ns, as docs/decisions/0132-bounded-work.md counts them
+  std::uint64_t bound = 0;  ///< the most that it might take, in the same units; 0 where it is not bounded
+  bool met_bound = false;   ///< the parts are the best that it had by then
+};
+
 struct Refined {
   std::vector<Part> parts;  ///< by draft; of one draft its own remainder first, then what was cut out of it
-  std::vector<std::pair<std::size_t, base::Diagnostic>> failed;  ///< drafts that could not be raised, and why
-  /// Owners whose search met the bound of its work, ascending; their parts are the best that it had by then.
-  std::vector<std::size_t> ended_early = {};
+  std::vector<std::pair<std::size_t, base::Diagnostic>> failed;   ///< drafts that could not be raised, and why
+  std::vector<std::pair<std::size_t, SearchWork>> searches = {};  ///< by owner, ascending
 };
 
 /// Parts joined where one roof suits both, each given the roof that suits the scan best, and cut where two suit better.

@@ -145,6 +145,11 @@ auto json_of(const BuildingReport& b) -> Json {
                          {"error_m", digits(b.confidence->error, 1e3)},
                          {"class", confidence::class_of(b.confidence->right)}};
   }
+  if (b.search)
+    out["search"] = {{"samples", b.search->samples},
+                     {"corners", b.search->corners},
+                     {"work", b.search->work},
+                     {"bound", b.search->bound}};
   if (b.left_out > 0) out["left_out_m2"] = b.left_out;
   if (!b.roof.empty()) out["roof"] = b.roof;
   if (!b.height_from.empty()) out["height_from"] = b.height_from;

@@ -22,6 +22,7 @@
 #include "mansard/model/accuracy.hpp"
 #include "mansard/model/city.hpp"
 #include "mansard/model/scene.hpp"
+#include "mansard/refine/refine.hpp"
 #include "mansard/segment/segment.hpp"
 #include "mansard/sweep/sweep.hpp"
 
@@ -97,6 +98,7 @@ struct BuildingReport {
   std::optional<double> rmse;                        ///< m, vertical, over its parts; none without mesh coverage
   std::optional<confidence::Evidence> evidence;      ///< of a model that was made with a scan
   std::optional<confidence::Confidence> confidence;  ///< by that
+  std::optional<refine::SearchWork> search;          ///< of a model whose roofs were looked for in a scan
   double left_out = 0;            ///< m² of the footprint that are high enough for a building and have no model
   std::string roof, height_from;  ///< the shape made and where its height comes from; only of models without a mesh
 };

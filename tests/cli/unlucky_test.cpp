@@ -1,5 +1,8 @@
 // Inputs that are unlucky: ids like those of parts, more attributes than columns, names of no CRS, wrong encodings, a
 // format that cannot hold a city. Nothing is lost, and every remedy that a message names works.
+#include <sys/stat.h>
+#include <chrono>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -88,6 +91,24 @@ TEST_F(Unlucky, ids_that_formats_cannot_hold_are_changed_and_told) {
   EXPECT_THAT(cut.err, HasSubstr("U+0000"));
 }
 
+TEST_F(Unlucky, tables_and_files_in_other_encodings_are_told) {
+  put("latin.csv",
+      "id,street\na,Stra\xdf"
+      "e\n");
+  const auto command = "extrude " + at("house.geojson") + " --default-height 6 --join " + at("latin.csv") +
+                       " --on id -o " + at("a.city.json") + " --overwrite";
+  const auto told = run(command);
+  EXPECT_EQ(told.exit, 0) << told.err;
+  EXPECT_THAT(told.err, HasSubstr("warning[ingest-text]"));
+  EXPECT_THAT(told.err, HasSubstr("'street'"));
+  const auto known = run(command + " --ingest-encoding ISO-8859-1");
+  EXPECT_THAT(known.err, Not(HasSubstr("ingest-text")));
+  EXPECT_EQ(objects("a.city.json")["a"]["attributes"]["street"], "Straße");
+  std::string wide = "\xff\xfe";
+  for (const char c : read(at("house.geojson"))) wide += std::string(1, c) + '\0';
+  expect_refusal(reconstruct(at("house.obj"), put("wide.geojson", wide)), 3, "file-read", "UTF-16; save it in UTF-8");
+}
+
 TEST_F(Unlucky, more_attributes_than_columns_are_kept) {
   std::string properties = R"({"id":"a")";
   for (int i = 0; i < 2500; ++i) properties += ",\"n" + std::to_string(i) + "\":" + std::to_string(i);
@@ -118,6 +139,65 @@ TEST_F(Unlucky, one_formats_limit_is_not_the_others_loss) {
   const auto again = run(command[1].str());  // Mars is still Mars
   EXPECT_THAT(again.err, HasSubstr("error[write-tiles-crs]"));
   EXPECT_EQ(run(std::regex_replace(command[1].str(), std::regex("model.3dtiles"), "model.glb")).exit, 0);
+}
+
+TEST_F(Unlucky, one_formats_limit_is_not_the_others_loss_where_models_are_written_again) {
+  put("none.geojson", geojson(polygon(square), ""));
+  ASSERT_EQ(run("extrude -q " + at("none.geojson") + " --crs IAU_2015:49910 -o " + at("mars.city.json")).exit, 0);
+  const auto the_rest_is_there = [&](const Outcome& outcome, const std::string& rest) {
+    EXPECT_EQ(outcome.exit, 3) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("error[write-tiles-crs]"));
+    EXPECT_THAT(outcome.err, HasSubstr("there is no " + rest + ".3dtiles, and the other results are complete"));
+    std::smatch command;
+    ASSERT_TRUE(std::regex_search(outcome.err, command, std::regex("run: mansard (convert .*)\n")));
+    EXPECT_EQ(run(std::regex_replace(command[1].str(), std::regex("[.]3dtiles"), ".again.glb")).exit, 0);
+  };
+  const auto both = run("convert -q " + at("mars.city.json") + " -o " + at("a.obj") + " -o " + at("a.3dtiles") +
+                        " -o " + at("a.gpkg"));
+  the_rest_is_there(both, "a");
+  EXPECT_THAT(both.out, HasSubstr("a.obj"));
+  EXPECT_THAT(both.out, Not(HasSubstr("a.3dtiles")));
+  EXPECT_TRUE(fs::exists(at("a.obj")) && fs::exists(at("a.gpkg")));
+  EXPECT_FALSE(fs::exists(at("a.3dtiles")));
+  EXPECT_EQ(run("convert -q " + at("a.gpkg") + " -o " + at("back.city.json")).exit, 0);
+  // With other options the solids are made again, which is another way through.
+  the_rest_is_there(run("convert -q --extrude-overhang 0.3 " + at("mars.city.json") + " -o " + at("b.3dtiles") +
+                        " -o " + at("b.obj")),
+                    "b");
+  EXPECT_TRUE(fs::exists(at("b.obj")));
+  the_rest_is_there(run("extrude -q " + at("mars.city.json") + " --formats tiles,obj,cityjson -o " + at("out")),
+                    "model");
+  EXPECT_TRUE(fs::exists(at("out/model.obj")) && fs::exists(at("out/model.city.json")));
+  // One that is asked for alone is all there is.
+  const auto alone = run("convert -q " + at("mars.city.json") + " -o " + at("c.3dtiles"));
+  EXPECT_EQ(alone.exit, 3);
+  EXPECT_THAT(alone.err, Not(HasSubstr("other results")));
+}
+
+TEST_F(Unlucky, a_pipe_that_no_program_writes_to_is_an_error_wherever_it_is_given) {
+  ASSERT_EQ(::mkfifo(at("pipe.json").c_str(), 0600), 0);
+  const auto began = std::chrono::steady_clock::now();
+  std::vector<std::future<Outcome>> all;
+  const std::string commands[] = {
+      "convert @ -o x.obj", "extrude " + at("house.geojson") + " --dtm=@ -o " + at("x.obj"),
+      "reconstruct " + at("house.obj") + " " + at("house.geojson") + " --join @ -o " + at("p"), "info @",
+      "evaluate @ " + at("house.obj")};
+  for (std::size_t i = 0; i < std::size(commands); ++i)
+    all.push_back(std::async(std::launch::async, [&, i] {
+      const std::string own = at("said" + std::to_string(i));
+      const auto command = std::regex_replace(commands[i], std::regex("@"), at("pipe.json"));
+      const int status =
+          std::system((std::string(MANSARD_BINARY) + " " + command + " >/dev/null 2>" + own + " </dev/null").c_str());
+      return Outcome{WEXITSTATUS(status), "", read(own)};
+    }));
+  for (auto& one : all) {
+    const auto outcome = one.get();
+    EXPECT_EQ(outcome.exit, 3) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("error[file-read]"));
+    EXPECT_THAT(outcome.err, HasSubstr("start that one first, or give a file"));
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(60));
+  EXPECT_EQ(run("info " + at("house.geojson")).exit, 0);  // a file, as it says
 }
 
 TEST_F(Unlucky, a_link_in_place_of_what_a_run_keeps_is_not_followed) {

@@ -33,7 +33,7 @@ case $2 in
     JOBS=3 nightly debug || fail "failed"
     grep -qE '^bin/ctest --preset debug .*-j 3 -LE browser$' "$calls" || fail "not as many tests at once, or those in browsers"
     says '^\| `debug` \| .* \| passed \| 11 \| 0 \| 2 \| 0 \| 20[0-9-]+ \| 1\.2\.3, abc1234 \|$' || fail "no row of debug"
-    for lane in asan clang firefox headers tidy fuzz properties kills fixed_point clean; do
+    for lane in asan clang firefox headers tidy fuzz properties kills fixed_point outlines clean; do
       says "^\| \`$lane\` \| .* \| not run \| \| \| \| \| \| \|$" || fail "$lane was not run"
     done
     ;;
@@ -47,7 +47,7 @@ case $2 in
     nightly debug || [[ $? -eq 1 ]] || fail "failed"
     says '^- `asan`: a\.b, a\.c$' || fail "what failed in asan is gone"
     says '^- `debug`: a\.b, a\.c$' || fail "what failed in debug is not named"
-    [[ $(grep -c '^| `' "$page") -eq 11 ]] || fail "a lane has not one row"
+    [[ $(grep -c '^| `' "$page") -eq 12 ]] || fail "a lane has not one row"
     ;;
   nightly_reports_a_lane_that_does_not_build)
     stand_in bin/cmake '[[ "$*" != *--build* ]]'
@@ -65,6 +65,13 @@ case $2 in
     says '^\| `fuzz` \| each fuzzer for 5 s \| failed \| 2 \| 1 \| 0 \|' || fail "no row of fuzz"
     says '^\| `properties` \| .*10 random plans \| failed \| 14 \| 2 \| 0 \|' || fail "no row of properties"
     says '^- `fuzz`: extrude$' && says '^- `properties`: Guarantee.holds$' || fail "what failed is not named"
+    ;;
+  nightly_counts_files_of_outlines)
+    stand_in tools/outlines.py 'printf "outlines: 000000: passed\n  noise\noutlines: 001500: failed\n"; exit 1'
+    OUTLINES=3000 SEED=7 nightly outlines || [[ $? -eq 1 ]] || fail "failed"
+    grep -q '^tools/outlines.py build/release/bin/mansard .*/outlines --count 3000 --seed 7$' "$calls" || fail "not those given"
+    says '^\| `outlines` \| 3000 random .* \| failed \| 1 \| 1 \| 0 \|' || fail "no row of outlines"
+    says '^- `outlines`: 001500$' || fail "what failed is not named"
     ;;
   nightly_counts_headers_and_sources)
     stand_in tools/check_headers.sh 'printf "check_headers: mansard/a/a.hpp: passed\nnoise: passed\n"'

@@ -281,6 +281,32 @@ TEST_F(Gltf, reads_interleaved_and_quantised_positions) {
   EXPECT_THAT(scene->mesh.vertices, ElementsAre(Point3{0, 0, 0}, Point3{1, 0, 0}, Point3{0, 1, 1}));
 }
 
+TEST_F(Gltf, reads_data_uris_whatever_type_they_say) {
+  const std::string base64 = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAAEAAAAAAAAAAAAAAAEAAAAAAAAABAAIAAAACAAMA";
+  std::string escaped;
+  for (const char c : quad_bytes()) {
+    constexpr const char* digits = "0123456789abcdef";
+    const auto byte = static_cast<unsigned char>(c);
+    escaped += std::string("%") + digits[byte >> 4] + digits[byte & 15];
+  }
+  const auto glb_mesh = mesh(file("q.glb", glb(quad_json(R"({"mesh":0})", indexed), quad_bytes())));
+  ASSERT_TRUE(glb_mesh);
+  for (const std::string& uri :
+       {"data:application/octet-stream;base64," + base64, "data:;base64," + base64, "data:model/x;a=b;base64," + base64,
+        R"(data:application\/gltf-buffer;base64,)" + base64, "data:," + escaped}) {
+    auto json = quad_json(R"({"mesh":0})", indexed);
+    const std::string buffer = R"({"byteLength":60)";
+    json.replace(json.find(buffer), buffer.size(), buffer + R"(,"uri":")" + uri + "\"");
+    const auto scene = mesh(file("u.gltf", json));
+    ASSERT_TRUE(scene) << base::to_string(scene.error());
+    EXPECT_EQ(scene->mesh.vertices, glb_mesh->mesh.vertices) << uri;
+    EXPECT_EQ(scene->mesh.triangles, glb_mesh->mesh.triangles) << uri;
+    // A picture of no type, which no mesh needs, is no reason to refuse one.
+    json.insert(json.size() - 1, R"(,"images":[{"uri":"data:;base64,QUJD"}])");
+    EXPECT_TRUE(mesh(file("i.gltf", json))) << uri;
+  }
+}
+
 TEST_F(Gltf, refuses_truncated_and_impossible_files) {
   const auto bytes = glb(quad_json(R"({"mesh":0})", indexed), quad_bytes());
   EXPECT_EQ(code(mesh(file("t.glb", bytes.substr(0, bytes.size() - 20)))), "ingest-mesh-truncated");

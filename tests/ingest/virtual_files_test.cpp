@@ -5,7 +5,11 @@
 #include <gdal/cpl_vsi.h>
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "ingest/workshop.hpp"
+#include "mansard/formats/files/zip_directory.hpp"
+#include "mansard/ingest/detail/files_below.hpp"
 
 namespace mansard::ingest::test {
 namespace {
@@ -54,6 +58,44 @@ TEST_F(VirtualFiles, that_grow_as_no_input_does_are_refused) {
     VSIFCloseL(file);
     EXPECT_THAT(text_of(name), HasSubstr("200 times the size of its archive")) << name;
   }
+}
+
+TEST_F(VirtualFiles, in_an_archive_are_listed_in_one_pass) {
+  const std::string zip = at("t.zip").string();
+  std::set<std::string> expected;
+  for (int i = 0; i < 300; ++i) {
+    const auto name = (i % 3 == 0 ? "a/b/" : i % 3 == 1 ? "a/" : "") + std::to_string(i) + ".obj";
+    pack("/vsizip/" + zip + "/" + name, triangle);
+    expected.insert(name);
+  }
+  const auto names = formats::names_in_zip(zip);
+  ASSERT_TRUE(names);
+  EXPECT_EQ(std::set<std::string>(names->begin(), names->end()), expected);
+  EXPECT_EQ(names->size(), expected.size());  // each once, and no folders
+  std::size_t below = 0;
+  const auto listed = detail::files_below("/vsizip/" + zip + "/a");
+  ASSERT_TRUE(listed);
+  for (const auto& path : *listed) {
+    EXPECT_EQ(path.string().rfind("/vsizip/" + zip + "/a/", 0), 0U) << path;
+    ++below;
+  }
+  EXPECT_EQ(below, 200U);
+  EXPECT_EQ(detail::files_below("/vsizip/" + zip)->size(), 300U);
+  // As GDAL calls them, whatever that is.
+  pack("/vsizip/" + at("other.zip").string() +
+           "/Stra\xc3\x9f"
+           "e.obj",
+       triangle);
+  EXPECT_FALSE(formats::names_in_zip(at("other.zip")));
+  const auto other = detail::files_below("/vsizip/" + at("other.zip").string());
+  ASSERT_TRUE(other);
+  ASSERT_EQ(other->size(), 1U);
+  EXPECT_EQ(text_of(other->front()), triangle);
+  EXPECT_FALSE(formats::names_in_zip(file("no.zip", triangle)));
+  const auto bytes = base::read_file(zip).value();
+  for (const std::size_t length :
+       {std::size_t{0}, std::size_t{21}, bytes.size() / 2, bytes.size() - 23, bytes.size() - 1})
+    EXPECT_FALSE(formats::names_in_zip(file("cut.zip", bytes.substr(0, length)))) << length;
 }
 
 TEST_F(VirtualFiles, are_called_what_gdal_calls_them) {

@@ -162,11 +162,24 @@ TEST(Refine, ends_at_the_bound_of_its_work_and_says_so) {
   const std::vector<refine::Draft> halves{flat_draft(rectangle(10, 20, 5, 8), 6, 4),
                                           flat_draft(rectangle(15, 20, 7, 8), 6, 4)};
   const auto mesh = scan({gabled()});
-  EXPECT_THAT(refine::refine(halves, mesh, {}, {}).ended_early, testing::IsEmpty());
+  const auto met_bound = [](const refine::Refined& made) {
+    EXPECT_EQ(made.searches.size(), 1U);
+    return !made.searches.empty() && made.searches.front().second.met_bound;
+  };
+  const auto unbounded = refine::refine(halves, mesh, {}, {});
+  EXPECT_FALSE(met_bound(unbounded));
+  const auto& [owner, search] = unbounded.searches.front();
+  EXPECT_EQ(owner, 4U);
+  EXPECT_EQ(search.corners, 8U);
+  EXPECT_GT(search.samples, 0U);
+  EXPECT_EQ(search.bound, 10000 * (search.samples + 100 * search.corners));
+  EXPECT_GT(search.work, search.samples);
+  EXPECT_LT(search.work, search.bound);
   Options bounded;
   bounded.search.most_work = 1;
   const auto out = refine::refine(halves, mesh, bounded, {});
-  EXPECT_THAT(out.ended_early, ElementsAre(4));
+  EXPECT_TRUE(met_bound(out));
+  EXPECT_LT(out.searches.front().second.work, search.work);
   EXPECT_EQ(out.parts.size(), 2U);  // not joined, and both raised
   EXPECT_TRUE(out.failed.empty());
 }
@@ -175,10 +188,10 @@ TEST(Refine, asks_for_a_bounded_number_of_roofs) {
   auto draft = flat_draft(house(), 6);
   draft.alternatives.assign(4, {roof(5, 0.3), roof(5, 0.5), roof(5, 0.7)});
   const auto mesh = scan({plan(house(), {roof(4, 0.3), wall(7), roof(6, 0.9), roof(5, 0.6)}, 8)});
-  EXPECT_THAT(refine::refine(std::span(&draft, 1), mesh, {}, {}).ended_early, testing::IsEmpty());
+  EXPECT_FALSE(refine::refine(std::span(&draft, 1), mesh, {}, {}).searches.front().second.met_bound);
   Options bounded;
   bounded.search.most_roofs = 1;
-  EXPECT_THAT(refine::refine(std::span(&draft, 1), mesh, bounded, {}).ended_early, ElementsAre(0));
+  EXPECT_TRUE(refine::refine(std::span(&draft, 1), mesh, bounded, {}).searches.front().second.met_bound);
 }
 
 TEST(Refine, gives_the_same_at_any_thread_count) {

@@ -89,6 +89,34 @@ TEST_F(Terrace, previews_without_writing) {
             "edit-building");
 }
 
+TEST_F(Terrace, proposes_roofs_that_suit_the_scan_and_says_what_is_worse) {
+  const auto before = building(0);
+  const auto part = before["parts"][0];
+  const auto ask = [&](const std::string& kind, const std::string& name) {
+    return server_->post(
+        "/api/runs/run-1/roofs",
+        {{"kind", kind}, {"parts", Json::array({{{"building", name}, {"part", part["id"]}, {"plan", part["plan"]}}})}});
+  };
+  for (const auto* kind : {"flat", "shed", "gable", "hip", "pyramid", "gambrel", "mansard", "fitted"}) {
+    const auto reply = ask(kind, before["id"]);
+    ASSERT_EQ(reply.status, 200) << reply.text;
+    const auto roof = reply.json()["roofs"][0];
+    ASSERT_FALSE(roof["plan"].is_null()) << kind << reply.text;
+    EXPECT_EQ(roof["plan"]["outer"]["points"], part["plan"]["outer"]["points"]) << kind;
+    if (kind == std::string("gable") || kind == std::string("fitted")) {
+      EXPECT_LT(roof["mse"].get<double>(), roof["mse_before"].get<double>() + 0.01) << kind;
+    }
+  }
+  EXPECT_EQ(building(0), before);
+  EXPECT_EQ(ask("dome", before["id"]).code(), "server-body");
+  EXPECT_EQ(ask("gable", "z").code(), "edit-building");
+  const auto told = server_->post("/api/runs/run-1/preview", {{"changes", lift(before, 3)["changes"]}});
+  const auto text = told.json()["buildings"][0]["diagnostics"].dump();
+  EXPECT_THAT(text, HasSubstr("edit-error"));
+  EXPECT_THAT(text, HasSubstr("edit-above"));
+  EXPECT_TRUE(told.json()["buildings"][0]["valid"].get<bool>());
+}
+
 TEST_F(Terrace, gives_edited_buildings_as_they_were_before_their_edits) {
   const auto unedited = [&] { return server_->get("/api/runs/run-1/unedited").json()["buildings"]; };
   EXPECT_TRUE(unedited().empty());

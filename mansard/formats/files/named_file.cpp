@@ -3,7 +3,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <fstream>
+#include <string_view>
 #include <thread>
 
 #include "mansard/formats/files/reach.hpp"
@@ -21,7 +24,7 @@ auto bytes_of_named(const std::filesystem::path& path) -> base::Result<Bytes> {
   return Bytes::of(path);
 }
 
-auto check_pipe(const std::filesystem::path& path) -> base::Result<void> {
+auto check_pipe(const std::filesystem::path& path, std::chrono::milliseconds patience) -> base::Result<void> {
   std::error_code failure;
   if (!std::filesystem::is_fifo(path, failure)) return {};
   const int pipe = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -29,10 +32,11 @@ auto check_pipe(const std::filesystem::path& path) -> base::Result<void> {
   bool written = pipe < 0 || ::pipe2(aside, O_CLOEXEC) != 0;  // then opening it says what is wrong
   // tee() takes nothing out of a pipe. It says 0 where nobody has the other end open, who programs that are started
   // together may do a little later.
-  constexpr int steps = 100;
-  for (int i = 0; !written && i < steps; ++i) {
-    if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!written) {
     written = ::tee(pipe, aside[1], 1, SPLICE_F_NONBLOCK) != 0;
+    if (written || std::chrono::steady_clock::now() >= end) break;
+    std::this_thread::sleep_for(std::min(patience, std::chrono::milliseconds(100)));
   }
   // Where somebody writes, this end stays open to the end of the program: without a reader, writing would fail.
   for (const int file : {written ? -1 : pipe, aside[0], aside[1]})
@@ -40,6 +44,42 @@ auto check_pipe(const std::filesystem::path& path) -> base::Result<void> {
   if (written) return {};
   return base::error("file-read", "no program writes to this pipe; start that one first, or give a file",
                      path.string());
+}
+
+namespace {
+
+/// By the mark that such text begins with, or by the zeros around its first characters; empty for all else. "<" is XML.
+auto wide_encoding(std::string_view start) -> std::string {
+  using namespace std::string_view_literals;
+  const auto is_letter = [&](std::size_t at) { return start[at] > ' ' && start[at] <= '~' && start[at] != '<'; };
+  struct Mark {
+    std::string_view bytes;
+    const char* name;
+    std::size_t first;  // of the first character
+  };
+  for (const auto& [bytes, name, first] : {Mark{"\xFF\xFE\0\0"sv, "UTF-32", 4}, Mark{"\0\0\xFE\xFF"sv, "UTF-32", 7},
+                                           Mark{"\xFF\xFE"sv, "UTF-16", 2}, Mark{"\xFE\xFF"sv, "UTF-16", 3}})
+    if (start.starts_with(bytes)) return start.size() > first && start[first] == '<' ? std::string() : name;
+  if (start.size() < 8) return {};
+  for (const std::size_t zero : {0U, 1U}) {
+    bool wide = true;
+    for (std::size_t i = 0; i < 8; i += 2) wide = wide && start[i + zero] == '\0' && is_letter(i + 1 - zero);
+    if (wide) return "UTF-16";
+  }
+  return {};
+}
+
+}  // namespace
+
+auto check_text(const std::filesystem::path& path) -> base::Result<void> {
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(path, failure)) return {};
+  std::array<char, 16> start{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), start.size());
+  const auto encoding = wide_encoding({start.data(), static_cast<std::size_t>(file.gcount())});
+  if (encoding.empty()) return {};
+  return base::error("file-read", "this is text in " + encoding + "; save it in UTF-8", path.string());
 }
 
 auto named_beside(const std::filesystem::path& given, const std::filesystem::path& from, std::string name)

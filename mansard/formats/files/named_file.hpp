@@ -1,6 +1,7 @@
 // Files that other files name.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -13,9 +14,14 @@ namespace mansard::formats {
 /// name, not a file. Fails with "file-missing", "file-read".
 [[nodiscard]] auto bytes_of_named(const std::filesystem::path& path) -> base::Result<Bytes>;
 
-/// Waits up to 10 s for a program that writes to a named pipe; anything else passes at once. Without one, opening it
-/// would never end. Fails with "file-read".
-[[nodiscard]] auto check_pipe(const std::filesystem::path& path) -> base::Result<void>;
+/// Waits so long for a program that writes to a named pipe, which may be started with this one; anything else passes at
+/// once. Without one, opening it would never end. Fails with "file-read".
+[[nodiscard]] auto check_pipe(const std::filesystem::path& path,
+                              std::chrono::milliseconds patience = std::chrono::seconds(10)) -> base::Result<void>;
+
+/// That a file does not begin as text in UTF-16 or UTF-32 does, which is read nowhere but in XML. Fails with
+/// "file-read".
+[[nodiscard]] auto check_text(const std::filesystem::path& path) -> base::Result<void>;
 
 /// A picture or a library of materials that `from` names, perhaps with the path of another computer: then the file of
 /// the same name beside `from`. Fails as check_reach(given, …), where nothing was opened.

@@ -1,5 +1,7 @@
 #include "mansard/formats/gltf/gltf_input.hpp"
 
+#include <cpl_conv.h>
+#include <cpl_string.h>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -11,6 +13,7 @@
 #include "mansard/base/text.hpp"
 #include "mansard/formats/files/named_file.hpp"
 #include "mansard/formats/files/reach.hpp"
+#include "mansard/formats/files/uri.hpp"
 #include "mansard/formats/gltf/glb_container.hpp"
 #include "mansard/formats/gltf/meshopt.hpp"
 #include "mansard/formats/hash.hpp"
@@ -145,6 +148,49 @@ void place_indices(Json& json) {
     }
 }
 
+/// Of the media types that a data URI can say tinygltf knows these, with base64, and takes all others for the name of a
+/// file.
+auto is_known(std::string_view uri) -> bool {
+  static constexpr std::array<std::string_view, 7> known{"application/octet-stream",
+                                                         "application/gltf-buffer",
+                                                         "image/jpeg",
+                                                         "image/png",
+                                                         "image/bmp",
+                                                         "image/gif",
+                                                         "text/plain"};
+  uri.remove_prefix(std::string_view("data:").size());
+  return std::ranges::any_of(known, [&](std::string_view type) {
+    return uri.starts_with(type) && uri.substr(type.size()).starts_with(";base64,");
+  });
+}
+
+auto has_unknown_data(std::string_view json) -> bool {
+  constexpr std::string_view start = "\"data:";
+  for (auto at = json.find(start); at != json.npos; at = json.find(start, at + start.size()))
+    if (!is_known(json.substr(at + 1))) return true;
+  return false;
+}
+
+auto base64_of(const std::string& bytes) -> std::string {
+  char* text = CPLBase64Encode(static_cast<int>(bytes.size()), reinterpret_cast<const GByte*>(bytes.data()));
+  std::string out = text;
+  CPLFree(text);
+  return out;
+}
+
+/// The bytes in a data URI are the same whatever they are said to be.
+void name_types_of_data(Json& json) {
+  for (const char* list : {"buffers", "images"})
+    for (auto& item : json[list]) {
+      if (!item.is_object() || !item.contains("uri") || !item["uri"].is_string()) continue;
+      auto& uri = item["uri"].get_ref<std::string&>();
+      auto found = data_uri(uri);
+      if (!found || is_known(uri) || found->data.size() > std::numeric_limits<int>::max()) continue;
+      if (!found->base64) found->data = base64_of(found->data);
+      uri = "data:application/octet-stream;base64," + found->data;
+    }
+}
+
 auto rewritten(const Parts& parts, const std::string& name) -> base::Result<Rewritten> {
   const auto bad = [&name] {
     return base::error("ingest-mesh-format", "its JSON is damaged; export the mesh again", name);
@@ -155,7 +201,8 @@ auto rewritten(const Parts& parts, const std::string& name) -> base::Result<Rewr
     std::vector<Room> rooms;
     name_buffers(json, parts.binary.size(), rooms);
     place_indices(json);
-    for (const char* list : {"buffers", "meshes", "accessors"})
+    name_types_of_data(json);
+    for (const char* list : {"buffers", "images", "meshes", "accessors"})
       if (json[list].is_null()) json.erase(list);  // looking for one makes one
     return Rewritten{json.dump(), std::move(rooms)};
   } catch (const Json::exception&) {
@@ -259,7 +306,8 @@ auto load_gltf(std::string_view bytes, const std::filesystem::path& path, bool i
         "ingest-mesh-format",
         "its JSON nests more than " + std::to_string(base::deepest_json) + " levels deep; export the mesh again", name);
   Rewritten kept;
-  if (parts.json.find(meshopt) != parts.json.npos || parts.json.find(draco) != parts.json.npos) {
+  const bool compressed = parts.json.find(meshopt) != parts.json.npos || parts.json.find(draco) != parts.json.npos;
+  if (compressed || has_unknown_data(parts.json)) {
     auto text = rewritten(parts, name);
     if (!text) return text.error();
     kept = std::move(*text);

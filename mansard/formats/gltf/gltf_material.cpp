@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "mansard/base/text.hpp"
+#include "mansard/formats/files/uri.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -57,26 +58,6 @@ auto image_of(const tinygltf::Texture& texture) -> int {
   return -1;
 }
 
-/// "%20" as a blank.
-auto unescaped(const std::string& uri) -> std::string {
-  std::string out;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const auto digit = [&](std::size_t at) -> int {
-      const char c = at < uri.size() ? uri[at] : 'x';
-      if (c >= '0' && c <= '9') return c - '0';
-      if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-      return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-    };
-    if (uri[i] == '%' && digit(i + 1) >= 0 && digit(i + 2) >= 0) {
-      out += static_cast<char>(16 * digit(i + 1) + digit(i + 2));
-      i += 2;
-    } else {
-      out += uri[i];
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 auto image_source(const tinygltf::Model& model, int number, const std::string& file) -> std::optional<ImageSource> {
@@ -94,7 +75,7 @@ auto image_source(const tinygltf::Model& model, int number, const std::string& f
   } else if (!image->image.empty()) {
     out.bytes = std::make_shared<const std::string>(image->image.begin(), image->image.end());
   } else if (!image->uri.empty()) {
-    return ImageSource::beside(file, file, unescaped(image->uri));
+    return ImageSource::beside(file, file, without_percent(image->uri));
   } else {
     out.bytes = std::make_shared<const std::string>();
   }

@@ -11,6 +11,7 @@
 #include "mansard/base/stopped.hpp"
 #include "mansard/formats/files/named_file.hpp"
 #include "mansard/formats/files/reach.hpp"
+#include "mansard/formats/files/uri.hpp"
 #include "mansard/formats/hash.hpp"
 #include "mansard/formats/tiles3d/tile_subtree.hpp"
 #include "mansard/formats/tiles3d/tileset_json.hpp"
@@ -255,19 +256,10 @@ class Walk {
   std::size_t tiles_ = 0;
 };
 
-auto without_percent(const std::string& uri) -> std::string {
-  const auto digit = [](char c) -> int {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-  };
-  std::string out;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
-    out += escaped ? static_cast<char>(16 * digit(uri[i + 1]) + digit(uri[i + 2])) : uri[i] == '\\' ? '/' : uri[i];
-    if (escaped) i += 2;
-  }
-  return out;
+/// A path as GDAL and the system know it.
+auto plain_path(std::string uri) -> std::string {
+  std::ranges::replace(uri, '\\', '/');
+  return without_percent(uri);
 }
 
 }  // namespace
@@ -279,7 +271,7 @@ auto address_beside(const fs::path& file, const std::string& uri) -> fs::path {
   // What stands behind '?' is for a server, and no part of a name on disk.
   if (server) folder = folder.substr(0, folder.find('?'));
   folder = folder.substr(0, folder.rfind('/') == folder.npos ? 0 : folder.rfind('/') + 1);
-  std::string rest = server ? uri : without_percent(uri.substr(0, uri.find_first_of("?#")));
+  std::string rest = server ? uri : plain_path(uri.substr(0, uri.find_first_of("?#")));
   if (rest.starts_with("/")) {
     const auto host = server ? folder.find("//") : folder.npos;
     return host == folder.npos ? rest : folder.substr(0, folder.find('/', host + 2)) + rest;

@@ -1,5 +1,6 @@
 #include "mansard/formats/vector/attributes.hpp"
 
+#include <iconv.h>
 #include <ogrsf_frmts.h>
 #include <algorithm>
 #include <array>
@@ -303,6 +304,43 @@ auto attributes_of(const OGRFeature& feature) -> model::Attributes {
   for (int i = 0; i < feature.GetFieldCount(); ++i)
     out.emplace_back(feature.GetFieldDefnRef(i)->GetNameRef(), value_of(feature, i));
   return out;
+}
+
+auto OtherStrings::check() const -> base::Result<void> {
+  if (encoding_.empty()) return {};
+  const iconv_t found = ::iconv_open("UTF-8", encoding_.c_str());
+  if (found == iconv_t(-1))
+    return base::error(
+        "ingest-encoding",
+        "'" + encoding_ + "' is not a known encoding; expected one of those that 'iconv -l' lists, such as ISO-8859-1",
+        "ingest.encoding");
+  ::iconv_close(found);
+  return {};
+}
+
+void OtherStrings::take(std::string& text, const std::string& name, std::int64_t number) {
+  for (std::string_view rest = text; !rest.empty();) {
+    const auto length = detail::utf8_length(rest);
+    rest.remove_prefix(length);
+    if (length > 0) continue;
+    if (encoding_.empty()) {
+      if (count_++ == 0) first_ = "'" + name + "' of feature " + std::to_string(number);
+      return;
+    }
+    char* decoded = CPLRecode(text.c_str(), encoding_.c_str(), CPL_ENC_UTF8);
+    text = decoded;
+    CPLFree(decoded);
+    return;
+  }
+}
+
+auto OtherStrings::warning(const std::string& subject) const -> std::optional<base::Diagnostic> {
+  if (count_ == 0) return std::nullopt;
+  return base::warning("ingest-text",
+                       std::to_string(count_) + " strings of attributes are not UTF-8, the first is " + first_ +
+                           "; give their encoding with --ingest-encoding, such as ISO-8859-1, or characters are lost "
+                           "where models are written",
+                       subject);
 }
 
 auto ids_of(const std::vector<RawFeature>& features, const std::string& attribute, const std::string& subject,

@@ -1,8 +1,11 @@
 // Attributes and ids of features.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mansard/base/result.hpp"
@@ -14,6 +17,23 @@ namespace mansard::formats {
 
 /// Every field in order. Dates become ISO 8601 text, lists JSON text, binary data base 64; unset, null and NaN nothing.
 [[nodiscard]] auto attributes_of(const OGRFeature& feature) -> model::Attributes;
+
+/// The strings of a source that are not UTF-8.
+class OtherStrings {
+ public:
+  /// `encoding`: what they are in, as iconv names it; empty where nobody says.
+  explicit OtherStrings(std::string encoding) : encoding_(std::move(encoding)) {}
+  /// Fails with "ingest-encoding" where there is no such encoding here.
+  [[nodiscard]] auto check() const -> base::Result<void>;
+  /// Makes a string UTF-8, or counts it where its encoding is not known. `name` and `number` say where it is.
+  void take(std::string& text, const std::string& name, std::int64_t number);
+  /// "ingest-text", where any was counted.
+  [[nodiscard]] auto warning(const std::string& subject) const -> std::optional<base::Diagnostic>;
+
+ private:
+  std::string encoding_, first_;
+  std::size_t count_ = 0;
+};
 
 /// One id per feature, all different: the attribute asked for, else the source's own names, else the first well-known
 /// attribute that is there for all and different for all, else the first that names features, else the feature numbers.

@@ -1,6 +1,5 @@
 #include "mansard/formats/vector/features.hpp"
 
-#include <iconv.h>
 #include <ogrsf_frmts.h>
 #include <algorithm>
 #include <limits>
@@ -21,7 +20,6 @@
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/geojson/assumed_crs.hpp"
 #include "mansard/formats/hash.hpp"
-#include "mansard/formats/json/utf8.hpp"
 #include "mansard/formats/osm/osm.hpp"
 #include "mansard/formats/vector/attributes.hpp"
 
@@ -40,15 +38,6 @@ auto open(const std::string& name, const std::string& encoding) -> GDALDatasetUn
   if (is("ESRI Shapefile") && !encoding.empty()) words.SetNameValue("ENCODING", encoding.c_str());
   return GDALDatasetUniquePtr(GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                                 nullptr, words.List(), nullptr));
-}
-
-auto is_utf8(std::string_view text) -> bool {
-  while (!text.empty()) {
-    const auto length = detail::utf8_length(text);
-    if (length == 0) return false;
-    text.remove_prefix(length);
-  }
-  return true;
 }
 
 /// Why the value of a GeoJSON's "crs" names no CRS; empty where it does. GDAL takes degrees instead.
@@ -77,13 +66,6 @@ auto first_nul(std::string_view json) -> std::optional<std::size_t> {
     if ((before == json.npos ? at + 1 : at - before) % 2 == 1) return at;  // else the backslash itself is escaped
   }
   return std::nullopt;
-}
-
-auto is_encoding(const std::string& name) -> bool {
-  const iconv_t found = ::iconv_open("UTF-8", name.c_str());
-  if (found == iconv_t(-1)) return false;
-  ::iconv_close(found);
-  return true;
 }
 
 /// Everything that was read of the features, as bytes that differ where they differ.
@@ -264,12 +246,7 @@ class Source {
       : path_(path), subject_(shown_name(path)), options_(options), run_(run) {}
 
   auto read() -> base::Result<FeatureFile> {
-    if (!options_.encoding.empty() && !is_encoding(options_.encoding))
-      return base::error(
-          "ingest-encoding",
-          "'" + options_.encoding +
-              "' is not a known encoding; expected one of those that 'iconv -l' lists, such as ISO-8859-1",
-          "ingest.encoding");
+    if (auto known = OtherStrings(options_.encoding).check(); !known) return known.failure();
     const Confined confined(path_);
     auto file = read_confined();
     // What is wrong may be that something is missing that was refused.
@@ -462,29 +439,12 @@ class Source {
                                             subject_));
   }
 
-  /// Texts that are not UTF-8, by the encoding that was given.
   void decode_texts() {
-    std::size_t count = 0;
-    std::string first;
+    OtherStrings strings(options_.encoding);
     for (auto& feature : out_.features)
-      for (auto& [name, value] : feature.attributes) {
-        auto* text = std::get_if<std::string>(&value);
-        if (text == nullptr || is_utf8(*text)) continue;
-        if (!options_.encoding.empty()) {
-          char* decoded = CPLRecode(text->c_str(), options_.encoding.c_str(), CPL_ENC_UTF8);
-          *text = decoded;
-          CPLFree(decoded);
-        } else if (count++ == 0) {
-          first = "'" + name + "' of feature " + std::to_string(feature.number);
-        }
-      }
-    if (count > 0)
-      out_.warnings.push_back(base::warning("ingest-text",
-                                            std::to_string(count) +
-                                                " strings of attributes are not UTF-8, the first is " + first +
-                                                "; give their encoding with --ingest-encoding, such as ISO-8859-1, or "
-                                                "characters are lost where models are written",
-                                            subject_));
+      for (auto& [name, value] : feature.attributes)
+        if (auto* text = std::get_if<std::string>(&value)) strings.take(*text, name, feature.number);
+    if (auto warning = strings.warning(subject_)) out_.warnings.push_back(*std::move(warning));
   }
 
   auto check(OGRLayer& layer, const std::string& where, bool boxed) const -> base::Result<void> {

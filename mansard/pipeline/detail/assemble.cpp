@@ -276,6 +276,7 @@ auto finish_block(const model::Scene& scene, BlockResult& result, const Options&
     report.reasons.push_back(warning);
     if (f < scene.footprints.size()) warnings.push_back(std::move(warning));
   }
+  for (const auto& [f, search] : result.searches) finished(f).report.search = search;
   warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
   for (std::size_t i = 0; i < out.size(); ++i) {
     auto& [building, report] = out[i].second;

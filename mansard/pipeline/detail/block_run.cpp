@@ -117,11 +117,13 @@ auto raise_parts(const segment::Segmentation& segmentation, const Shown& shown, 
     part.changes = std::move(from.changes);
     parts.push_back(std::move(part));
   }
-  for (const std::size_t feature : refined.ended_early)
-    out.unchecked.emplace_back(feature,
-                               base::warning("refine-bound",
-                                             "the search for its roofs ended at the bound of its work; the best that "
-                                             "it had by then are used"));
+  for (const auto& [feature, search] : refined.searches)
+    if (search.met_bound)
+      out.unchecked.emplace_back(feature,
+                                 base::warning("refine-bound",
+                                               "the search for its roofs ended at the bound of its work; the best "
+                                               "that it had by then are used"));
+  out.searches = std::move(refined.searches);
   for (const auto& [draft, why] : refined.failed) out.warnings.push_back(not_raised(why, block, part_of_draft[draft]));
   out.report.times.stages.push_back({"refine", refining.stop()});
   return parts;

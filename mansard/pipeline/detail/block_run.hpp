@@ -78,6 +78,8 @@ struct BlockResult {
   std::vector<std::pair<std::size_t, model::Attributes>> measures;
   /// What the scan says of the model of each feature that has one.
   std::vector<std::pair<std::size_t, confidence::Evidence>> evidence;
+  std::vector<std::pair<std::size_t, refine::SearchWork>>
+      searches;  ///< by feature; none of what is a prism from the start
   std::vector<base::Diagnostic> warnings;
   std::optional<report::SegmentedBlock> segmented;  ///< with Keep::segmentations
 };

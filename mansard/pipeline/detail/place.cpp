@@ -102,6 +102,7 @@ void place(BlockResult& result, const block::OwnFrame& frame) {
   for (auto& one : result.left_out) way.number(one.feature);
   for (auto& [feature, attributes] : result.measures) way.number(feature);
   for (auto& [feature, evidence] : result.evidence) way.number(feature);
+  for (auto& [feature, search] : result.searches) way.number(feature);
   if (result.segmented) place(*result.segmented, frame);
 }
 

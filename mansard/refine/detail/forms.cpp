@@ -279,6 +279,31 @@ auto sides_of(const Plan& plan) -> std::vector<Side> {
   return sides;
 }
 
+auto roof_over(const Plan& plan, const Site& site, const std::vector<bool>& carries, bool steep_foot,
+               const Options& options) -> std::optional<Profile> {
+  const Strips strips(plan, site, options.forms);
+  auto looks = strips.looks_at(carries);
+  if (looks.empty()) return std::nullopt;
+  const auto& forms = options.forms;
+  if (!steep_foot) {
+    auto line = common_line(looks, options.lines);
+    if (!line || line->slope < forms.min_slope || line->slope > forms.max_slope) {
+      const double slope = line ? std::clamp(line->slope, forms.min_slope, forms.max_slope) : forms.min_slope;
+      line = raised_line(looks, {0, slope}, options.lines);
+    }
+    return pitched(line->at_edge, line->slope);
+  }
+  if (auto found = mansard_line(looks, options)) return found;
+  // About 70° and 20°, as roofs with a steep foot mostly have; the scan says how high.
+  constexpr double run = 0.85, rise = 2.4, upper = 0.36;
+  const auto above_gutter = [](double inward) {
+    return inward < run ? rise / run * inward : rise + upper * (inward - run);
+  };
+  for (auto& look : looks) look.height -= above_gutter(look.inward);
+  const double gutter = std::max(forms.min_height, middle_height(looks));
+  return Profile{{0, 0}, {0, gutter}, {run, gutter + rise}, {run + 1, gutter + rise + upper}};
+}
+
 auto setbacks_of(const Plan& plan, const Site& site, const Options& options) -> std::vector<std::vector<Profile>> {
   const auto eaves = eaves_of(plan, std::vector<bool>(plan.profiles.size(), true));
   std::vector<std::vector<Look>> looks(plan.profiles.size());

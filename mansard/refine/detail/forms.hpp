@@ -21,6 +21,12 @@ struct Form {
 /// flat ones as there are levels to end at: the most promising first. Profiles of the plan keep their numbers.
 [[nodiscard]] auto forms_of(const model::Plan& plan, const Site& site, const Options& options) -> std::vector<Form>;
 
+/// One roof for all sides that carry it, as the site's samples suggest; it rises, be the scan level. `steep_foot`: with
+/// a steep part below a flatter one, of usual size where the scan shows none. None where no sample is near to such a
+/// side.
+[[nodiscard]] auto roof_over(const model::Plan& plan, const Site& site, const std::vector<bool>& carries,
+                             bool steep_foot, const Options& options) -> std::optional<model::Profile>;
+
 /// Per profile of the plan what its sides may carry where the scan shows a level strip along them (`Options::setback`)
 /// and something higher behind it: wall, terrace, wall, and what goes on above. Cost: O(cells · edges).
 [[nodiscard]] auto setbacks_of(const model::Plan& plan, const Site& site, const Options& options)

@@ -34,11 +34,17 @@ class Pieces {
  public:
   Pieces(std::vector<Piece> pieces, const Work& work) : work_(work), before_(work.account().spent()) {
     for (auto& piece : pieces) {
-      most_ += static_cast<std::uint64_t>(work.options().search.most_work) *
-               (samples_of(piece.site) + samples_of_corner * corners_of(piece.roof.plan));
+      samples_ += samples_of(piece.site);
+      corners_ += corners_of(piece.roof.plan);
       pieces_.push_back(numbered(std::move(piece)));
     }
+    most_ = static_cast<std::uint64_t>(work.options().search.most_work) * (samples_ + samples_of_corner * corners_);
   }
+
+  /// Of the pieces that it began with.
+  [[nodiscard]] auto samples() const -> std::uint64_t { return samples_; }
+  [[nodiscard]] auto corners() const -> std::uint64_t { return corners_; }
+  [[nodiscard]] auto most() const -> std::uint64_t { return most_; }
 
   /// From now on the search ends where this share of what it may take in all is spent.
   void allow(double share) { allowed_ = static_cast<std::uint64_t>(share * static_cast<double>(most_)); }
@@ -242,6 +248,7 @@ class Pieces {
   std::map<std::pair<std::size_t, std::size_t>, Pair> pairs_;
   std::set<std::size_t> whole_;  // pieces that no cut makes cheaper
   std::size_t next_ = 0;
+  std::uint64_t samples_ = 0, corners_ = 0;
   std::uint64_t before_ = 0, most_ = 0, allowed_ = 0;
 };
 
@@ -272,6 +279,7 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
   }
   if (options.effort == Effort::parts) {
     Pieces search(std::move(pieces), work);
+    out.search = {search.samples(), search.corners(), 0, search.most(), false};
     search.allow(share_of_joining);
     search.join();
     search.cut_anew();  // a wall between two drafts that is not where the scan has it would be explained by cuts
@@ -283,7 +291,8 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
     pieces = std::move(search).pieces();
   }
   base::parallel_for(pieces.size(), [&](std::size_t i) { pieces[i] = work.finished(std::move(pieces[i])); });
-  out.ended_early = work.account().has_met_a_bound();
+  out.search.work = work.account().spent();
+  out.search.met_bound = work.account().has_met_a_bound();
   return out;
 }
 

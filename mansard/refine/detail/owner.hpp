@@ -12,8 +12,8 @@ namespace mansard::refine::detail {
 
 struct Roofed {
   std::vector<Piece> pieces;
-  Refined rest;              ///< drafts that could not be raised in full, and those that could not be raised at all
-  bool ended_early = false;  ///< the search met its bound; these are the best that it had by then
+  Refined rest;  ///< drafts that could not be raised in full, and those that could not be raised at all
+  SearchWork search;
 };
 
 /// `mine`: indices into the drafts, ascending.

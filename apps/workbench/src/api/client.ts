@@ -81,6 +81,11 @@ export class Client {
   unedited = (run: string) => this.json<{ buildings: api.RaisedBuilding[] }>("GET", this.of(run, "/unedited"));
   split = (run: string, building: string, part: string, line: api.Point2[]) =>
     this.json<api.Proposal>("POST", this.of(run, "/split"), { building, part, line });
+  roofs = (run: string, kind: string, parts: { building: string; part: string; plan: api.Plan }[]) =>
+    this.json<{ roofs: api.FittedRoof[] }>("POST", this.of(run, "/roofs"), {
+      kind,
+      parts: parts.map(({ building, part, plan }) => ({ building, part, plan })),
+    });
   merge = (run: string, parts: { building: string; part: string }[]) =>
     this.json<api.Proposal>("POST", this.of(run, "/merge"), { parts });
   edit = (run: string, edit: api.Edit) => this.json<api.Applied>("POST", this.of(run, "/edits"), edit);

@@ -359,6 +359,15 @@ export interface Edit {
 export interface Proposal {
   changes: Change[]; // not applied: preview it and send it as an edit
 }
+/** A part with the best roof of a kind for the scan. */
+export interface FittedRoof {
+  building: string;
+  part: string;
+  plan: Plan | null; // null: it cannot have such a roof
+  mse: number | null; // m², with this roof
+  mse_before: number | null; // m², with the roof that was sent
+  why: Diagnostic | null; // why there is none
+}
 export interface Applied {
   buildings: Building[]; // the changed buildings
   history: History;

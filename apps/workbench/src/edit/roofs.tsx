@@ -1,5 +1,7 @@
 // Roofs of a part, of selected parts or of a row in one click, and parts like another.
 import { signal } from "@preact/signals";
+import { client, showMessage } from "../actions";
+import { Refused } from "../api/client";
 import * as state from "../state";
 import { alike, alongRow, type Place, rowOf } from "./alike";
 import { partsOf, withPlan } from "./desk";
@@ -50,6 +52,31 @@ function together(changed: readonly Place[]): Parts[] {
   });
 }
 
+/** The parts with the best roofs of a kind for the scan, as the engine fits them; those that cannot have one are left out, and
+ *  said. Without a scan, or where it shows nothing, as `otherwise` makes them. */
+async function fittedOr(
+  places: readonly Place[],
+  kind: Shape | "fitted",
+  otherwise?: (place: Place) => Place["plan"],
+): Promise<Place[]> {
+  const run = state.run.value;
+  const plain = (place: Place) => (otherwise ? [{ ...place, plan: otherwise(place) }] : []);
+  if (!run || !state.sceneRead.value) return places.flatMap(plain);
+  try {
+    const { roofs } = await client.roofs(run.id, kind, [...places]);
+    return roofs.flatMap((roof, i) => {
+      const place = places[i]!;
+      if (roof.plan) return [{ ...place, plan: roof.plan }];
+      if (roof.why?.code === "refine-unseen" || roof.why?.code === "edit-unseen") return plain(place);
+      if (roof.why) showMessage({ ...roof.why, severity: "warning", subject: place.part });
+      return [];
+    });
+  } catch (failure) {
+    if (failure instanceof Refused) showMessage(failure.diagnostic);
+    return [];
+  }
+}
+
 /** Roof shapes for the selected part, for all selected parts, or for the row that the part is in. */
 export function Roofs() {
   const at = state.selection.value!;
@@ -71,13 +98,25 @@ export function Roofs() {
     if (!first) return;
     const row = reach.value === "row";
     const places = row ? rowOf(first, all) : [first, ...(reach.value === "selected" ? all.filter((p) => also.some((a) => isAt(p, a))) : [])];
-    const changed = places.map((place) => {
+    const run = state.run.value?.id;
+    void fittedOr(places, shape, (place) => {
       const shared = sharedOf(place, all);
       const along = row ? alongRow(place.plan, shared) : null;
-      return { ...place, plan: shaped(place.plan, shape, (i) => shared[i]!, {}, along ?? undefined) };
+      return shaped(place.plan, shape, (i) => shared[i]!, {}, along ?? undefined);
+    }).then((changed) => {
+      if (!changed.length || state.run.value?.id !== run) return;
+      const what = changed.length > 1 ? `${shape} roofs of ${changed.length} parts` : `${shape} roof`;
+      session.propose(what, together(changed));
     });
-    const what = changed.length > 1 ? `${shape} roofs of ${changed.length} parts` : `${shape} roof`;
-    session.propose(what, together(changed));
+  };
+  const fit = () => {
+    const all = everyPart();
+    const places = all.filter((p) => isAt(p, at) || (reach.value === "selected" && also.some((a) => isAt(p, a))));
+    const run = state.run.value?.id;
+    void fittedOr(places, "fitted").then((changed) => {
+      if (!changed.length || state.run.value?.id !== run) return;
+      session.propose(changed.length > 1 ? `${changed.length} roofs fitted to the scan` : "roof fitted to the scan", together(changed));
+    });
   };
   const makeAlike = () => {
     const all = everyPart();
@@ -97,6 +136,11 @@ export function Roofs() {
           {name}
         </button>
       ))}
+      {!alone && state.sceneRead.value && (
+        <button type="button" class="small" title="Move the roof as it is to where the scan has it: gutters, pitches and height" onClick={fit}>
+          Fit
+        </button>
+      )}
       {!alone && <select
         aria-label="Parts that get the roof"
         title="A row is what is joined by walls; its ridge runs through all houses"

@@ -266,6 +266,30 @@ describe("an invalid draft", () => {
     expect(t.edits).toHaveLength(0);
   });
 
+  it("is held with a question if it is above the scan, and saved when told so", async () => {
+    t.session.propose("gable roof", parts("a", plan(9)));
+    const above = { severity: "warning" as const, code: "edit-above", message: "it is 5.00 m above", subject: "a-1" };
+    const answer = raised("a", 9);
+    answer.buildings[0]!.diagnostics = [above];
+    await t.previews[0]!.answer(answer);
+    expect(t.session.phase.value).toBe("held");
+    expect(t.session.reason.value?.message).toContain("save it all the same");
+    expect(t.edits).toHaveLength(0);
+    t.session.again();
+    await turn();
+    expect(t.edits).toHaveLength(1);
+  });
+
+  it("is saved and said if it raises the error", async () => {
+    t.session.propose("gable roof", parts("a", plan(9)));
+    const worse = { severity: "warning" as const, code: "edit-error", message: "the error rises", subject: "" };
+    const answer = raised("a", 9);
+    answer.buildings[0]!.diagnostics = [worse];
+    await t.previews[0]!.answer(answer);
+    expect(t.edits).toHaveLength(1);
+    expect(t.said[0]?.code).toBe("edit-error");
+  });
+
   it("is saved once it has been dragged to a valid state", async () => {
     await hold();
     t.session.begin(["a"]);

@@ -66,6 +66,7 @@ export class EditSession {
   private asking: AbortController | null = null;
   private released = false; // to be saved as soon as it is known to be valid
   private open = false; // a gesture is in progress
+  private sure = false; // to be saved although it is above the scan
   private before: Draft | null = null; // the draft before the gesture
   private wasReleased = false; // that draft was about to be saved
   private pointer = 0;
@@ -120,6 +121,7 @@ export class EditSession {
     });
     const others = draft?.changes.filter((c) => !changes.some((n) => n.building === c.building)) ?? [];
     for (const { building } of changes) this.touched.add(building);
+    this.sure = false;
     this.lost = changes.flatMap((c) => c.lost ?? []);
     ++this.version;
     this.pointer = pointer;
@@ -180,6 +182,7 @@ export class EditSession {
   again() {
     if (this.open || this.writing || !this.desk.draft.value) return;
     this.released = true;
+    this.sure = true;
     this.phase.value = "checking";
     this.pump();
   }
@@ -222,8 +225,14 @@ export class EditSession {
       return;
     }
     if (this.open || this.writing) return;
-    if (this.released && !draft.invalid) void this.write(run.id, draft);
-    else this.hold(draft);
+    const doubts = doubtsOf(draft);
+    const question = this.sure ? undefined : doubts.find((d) => d.code === "edit-above");
+    if (!this.released || draft.invalid || question) {
+      this.hold(draft, question && { ...question, message: `${question.message}; save it all the same, or discard it` });
+      return;
+    }
+    for (const doubt of doubts) if (doubt.code !== "edit-above") this.desk.showMessage(doubt);
+    void this.write(run.id, draft);
   }
 
   private async ask(run: string, draft: Draft) {
@@ -434,6 +443,10 @@ export class EditSession {
     this.putting = false;
   }
 }
+
+/** What the preview says that is no error: that the change is worse for the scan. */
+const doubtsOf = (draft: Draft): api.Diagnostic[] =>
+  draft.changes.flatMap((c) => draft.raised.get(c.building)?.diagnostics.filter((d) => d.code === "edit-above" || d.code === "edit-error") ?? []);
 
 function firstError(buildings: api.RaisedBuilding[]): api.Diagnostic | null {
   const all = buildings.flatMap((b) => [...b.parts.flatMap((p) => p.diagnostics), ...b.diagnostics]);

@@ -31,6 +31,12 @@ test("gables are across the longest edge, hips all around", () => {
   expect(shaped(house(0, 10), "flat").cap).toBe(5);
 });
 
+test("a shed slopes one way, and a gambrel as a gable does", () => {
+  expect(kinds(shaped(house(0, 10), "shed")).filter((k) => k === "slope")).toHaveLength(1);
+  expect(kinds(shaped(house(0, 10), "shed", (i) => i === 0))).toEqual(["wall", "wall", "slope", "wall"]);
+  expect(kinds(shaped(house(0, 10), "gambrel"))).toEqual(["slope", "wall", "slope", "wall"]);
+});
+
 test("the pitch of the part stays", () => {
   const [, slope] = shaped(house(0, 10), "hip").profiles;
   expect((slope![2]![1] - slope![1]![1]) / (slope![2]![0] - slope![1]![0])).toBeCloseTo(1);

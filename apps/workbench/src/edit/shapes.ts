@@ -1,14 +1,17 @@
-// Roof shapes in one step: flat, gable, hip and mansard roofs for a part.
+// Roof shapes in one step, where there is no scan that the engine could fit them to.
 import type { Plan, Point2 } from "../api/types";
 import { after } from "./plan";
 import { type Profile, gutterOf, pitchOf } from "./profile";
 import { distance, minus, unit } from "./vector";
 
-export type Shape = "flat" | "gable" | "hip" | "mansard";
+export type Shape = "flat" | "shed" | "gable" | "hip" | "pyramid" | "gambrel" | "mansard";
 export const shapes: { shape: Shape; name: string; meaning: string }[] = [
   { shape: "flat", name: "Flat", meaning: "A flat roof at the height of the gutter" },
-  { shape: "gable", name: "Gable", meaning: "Slopes along the longest edge, walls up to the roof across it" },
-  { shape: "hip", name: "Hip", meaning: "The same slope on every edge without a neighbour" },
+  { shape: "shed", name: "Shed", meaning: "One slope, walls up to the roof on the other edges" },
+  { shape: "gable", name: "Gable", meaning: "Slopes on two opposite sides, walls up to the roof across them" },
+  { shape: "hip", name: "Hip", meaning: "Slopes on every edge without a neighbour" },
+  { shape: "pyramid", name: "Pyramid", meaning: "Slopes on every edge without a neighbour, up to one point" },
+  { shape: "gambrel", name: "Gambrel", meaning: "A gable roof whose slopes are steep at the foot and shallow above" },
   { shape: "mansard", name: "Mansard", meaning: "A steep slope, and a shallow one above it, on every edge without a neighbour" },
 ];
 
@@ -62,13 +65,18 @@ export function shaped(
   const ys = plan.outer.points.map((p) => p[1]);
   const reach = Math.hypot(Math.max(...xs) - Math.min(...xs), Math.max(...ys) - Math.min(...ys));
   const slope: Profile =
-    shape === "mansard"
+    shape === "mansard" || shape === "gambrel"
       ? [[0, 0], [0, eaves], [steep.run, eaves + steep.rise], [steep.run + reach, eaves + steep.rise + shallow * reach]]
       : [[0, 0], [0, eaves], [reach, eaves + pitch * reach]];
   // Higher than any ridge: slopes meet before.
   const cap = shape === "flat" ? eaves : slope.at(-1)![1];
   const wall: Profile = [[0, 0], [0, cap]];
-  const slopes = plan.outer.points.map((_, i) => shape !== "flat" && !shared(i) && (shape !== "gable" || lengthwise[i]!));
+  const first = shape === "shed" ? firstSlope(plan.outer.points, lengthwise, shared) : -1;
+  const slopes = plan.outer.points.map((_, i) => {
+    if (shape === "flat" || shared(i)) return false;
+    if (shape === "shed") return i === first;
+    return (shape !== "gable" && shape !== "gambrel") || lengthwise[i]!;
+  });
   return {
     ...plan,
     cap,
@@ -76,6 +84,17 @@ export function shaped(
     outer: { points: plan.outer.points, profile_of_edge: slopes.map((is) => (is ? 1 : 0)) },
     holes: plan.holes.map((h) => ({ points: h.points, profile_of_edge: h.points.map(() => 0) })),
   };
+}
+
+/** The longest edge lengthwise without a neighbour: there the roof of a shed is lowest. */
+function firstSlope(points: readonly Point2[], lengthwise: readonly boolean[], shared: (edge: number) => boolean): number {
+  let best = -1;
+  let most = 0;
+  points.forEach((p, i) => {
+    const length = distance(p, points[(i + 1) % points.length]!);
+    if (lengthwise[i] && !shared(i) && length > most) [best, most] = [i, length];
+  });
+  return best;
 }
 
 /** Edges of the outline that touch an outline of others, over more than a third of their length. */
