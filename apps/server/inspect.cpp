@@ -7,11 +7,11 @@
 #include <set>
 #include <variant>
 
-#include "apps/server/review.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/edit/attributes.hpp"
 #include "mansard/report/attributes.hpp"
+#include "mansard/report/review.hpp"
 
 namespace mansard::server {
 namespace {
@@ -40,7 +40,7 @@ auto values_of(const model::Attributes& attributes, std::vector<std::string>& or
 /// By name, of the one list of attributes.
 auto meanings() -> std::map<std::string, formats::Attribute> {
   std::map<std::string, formats::Attribute> known;
-  for (const auto& list : {report::attributes(), edit::attributes(), review_attributes()})
+  for (const auto& list : {report::attributes(), edit::attributes(), report::review_attributes()})
     for (const auto& attribute : list) known.emplace(attribute.name, attribute);
   return known;
 }

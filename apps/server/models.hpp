@@ -23,13 +23,13 @@
 #include "apps/server/json.hpp"
 #include "apps/server/project.hpp"
 #include "apps/server/requests.hpp"
-#include "apps/server/review.hpp"
 #include "apps/server/scene.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/edit/edit.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/geometry/points.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/report/review.hpp"
 
 namespace mansard::server {
 

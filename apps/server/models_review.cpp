@@ -188,7 +188,9 @@ auto Models::model_now(std::string_view building) const -> std::optional<ModelNo
   const auto& first = city_.buildings[at->second].parts;
   const bool same = std::ranges::equal(first, known.parts,
                                        [](const auto& part, const auto& now_has) { return part.plan == now_has.plan; });
-  return ModelNow{model_key(known.parts, city_.frame), known.revision, !same};
+  std::vector<const model::Plan*> plans;
+  for (const auto& part : known.parts) plans.push_back(&part.plan);
+  return ModelNow{report::model_key(plans, city_.frame), known.revision, !same};
 }
 
 auto Models::review_case(const std::string& building, const OpenScene* scene) const -> base::Result<std::string> {

@@ -177,11 +177,11 @@ class Workspace {
       -> std::string;
 
   // Decisions. `reviewed`: the city with those that hold as attributes.
-  [[nodiscard]] auto decisions() const -> std::shared_ptr<const Decisions>;
+  [[nodiscard]] auto decisions() const -> std::shared_ptr<const report::Decisions>;
   [[nodiscard]] auto reviewed(std::shared_ptr<const model::City> city, const Models& models) const
       -> std::shared_ptr<const model::City>;
   /// With review_mutex_ held.
-  [[nodiscard]] auto keep_decisions(Decisions now, const std::string& client) -> base::Result<void>;
+  [[nodiscard]] auto keep_decisions(report::Decisions now, const std::string& client) -> base::Result<void>;
 
   [[nodiscard]] auto files_json(const std::vector<KnownFile>& files) const -> Json;
   [[nodiscard]] auto project_json() const -> Json;
@@ -202,7 +202,8 @@ class Workspace {
   mutable ChangedFiles changed_files_;
   std::string reviewer_;     ///< set before anything is asked
   std::mutex review_mutex_;  // of those who change the decisions
-  std::shared_ptr<const Decisions> decisions_ = std::make_shared<const Decisions>();  // guarded by mutex_
+  std::shared_ptr<const report::Decisions> decisions_ =
+      std::make_shared<const report::Decisions>();  // guarded by mutex_
   std::mutex exports_mutex_;
   std::atomic<std::uint64_t> next_work_ = 1;
   Events events_;

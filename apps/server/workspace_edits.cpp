@@ -35,7 +35,7 @@ auto Workspace::search(const std::string& run, const std::string& words) -> Text
   std::map<std::string, model::Attributes, std::less<>> more;
   for (const auto& [building, decision] : *decisions())
     if (const auto model_now = (*open)->model_now(building); model_now && model_now->model == decision.model)
-      more.emplace(building, attributes_of(decision));
+      more.emplace(building, report::attributes_of(decision));
   return (*open)->search(words, more);
 }
 

@@ -11,7 +11,7 @@
 
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
-#include "mansard/formats/json/utf8.hpp"
+#include "mansard/base/utf8.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -223,7 +223,7 @@ auto as_given(std::vector<std::string> ids, const std::vector<RawFeature>& featu
 auto holdable(const std::string& id) -> std::string {
   std::string out;
   for (std::size_t i = 0; i < id.size();) {
-    const auto length = detail::utf8_length(std::string_view(id).substr(i));
+    const auto length = base::utf8_length(std::string_view(id).substr(i));
     const auto code = static_cast<unsigned char>(id[i]);
     if (length == 0 || code < 0x20 || code == 0x7F) out += "\xEF\xBF\xBD";
     else out += id.substr(i, length);

@@ -10,6 +10,7 @@
 #include "mansard/base/options.hpp"
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/base/utf8.hpp"
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
 #include "mansard/crs/spatial_reference.hpp"
@@ -21,7 +22,6 @@
 #include "mansard/formats/files/virtual_files.hpp"
 #include "mansard/formats/geojson/assumed_crs.hpp"
 #include "mansard/formats/hash.hpp"
-#include "mansard/formats/json/utf8.hpp"
 #include "mansard/formats/osm/osm.hpp"
 #include "mansard/formats/vector/attributes.hpp"
 
@@ -44,7 +44,7 @@ auto open(const std::string& name, const std::string& encoding) -> GDALDatasetUn
 
 auto is_utf8(std::string_view text) -> bool {
   while (!text.empty()) {
-    const auto length = detail::utf8_length(text);
+    const auto length = base::utf8_length(text);
     if (length == 0) return false;
     text.remove_prefix(length);
   }
