@@ -27,7 +27,7 @@ caption { text-align: left; font-weight: bold; padding-bottom: .2rem; break-afte
 th, td { text-align: left; vertical-align: top; padding: .22rem .6rem .22rem 0; border-bottom: 1px solid #c9cdd4; }
 tbody th, td.long { overflow-wrap: anywhere; min-width: 6rem; }
 thead th { border-bottom: 1px solid #1d1f23; } tbody th { font-weight: normal; }
-th.number, td.number { text-align: right; white-space: nowrap; } td.long { font-size: .85em; }
+th.number, td.number { text-align: right; } td.number { white-space: nowrap; } td.long { font-size: .85em; }
 tr, figure, footer, table.short { break-inside: avoid; } h2 + p { break-after: avoid; }
 figure { margin: 1rem 0 1.4rem; } figcaption ul { padding-left: 1.2rem; }
 img, svg { display: block; width: 100%; height: auto; } img { border: 1px solid #c9cdd4; box-sizing: border-box; }
@@ -36,7 +36,9 @@ img, svg { display: block; width: 100%; height: auto; } img { border: 1px solid 
 .legend { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .2rem 1.4rem; }
 .swatch { display: inline-block; width: 1em; height: .8em; margin-right: .4em; border: 1px solid #33363c;
   print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-@media print { body { max-width: none; padding: 0; font-size: 10pt; } }
+@media screen and (max-width: 46rem) { td.number { white-space: normal; } tbody th, td.long { min-width: 4rem; } }
+@media print { body { max-width: none; padding: 0; font-size: 10pt; } figure { margin: .5rem 0; }
+  img { width: auto; max-width: 100%; max-height: 7cm; } }
 )";
 
 auto digits(double value, int decimals) -> std::string { return to_text(value, decimals); }
