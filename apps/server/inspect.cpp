@@ -16,23 +16,12 @@
 namespace mansard::server {
 namespace {
 
-auto json_of(const model::Value& value) -> Json {
-  return std::visit(
-      [](const auto& one) -> Json {
-        using Kind = std::decay_t<decltype(one)>;
-        if constexpr (std::is_same_v<Kind, std::monostate>) return nullptr;
-        else if constexpr (std::is_same_v<Kind, double>) return std::isfinite(one) ? Json(one) : Json(nullptr);
-        else return one;
-      },
-      value);
-}
-
 auto values_of(const model::Attributes& attributes, std::vector<std::string>& order, std::set<std::string>& seen)
     -> Json {
   Json values = Json::object();
   for (const auto& [name, value] : attributes) {
     if (seen.insert(name).second) order.push_back(name);
-    values[name] = json_of(value);
+    values[name] = value_json(value);
   }
   return values;
 }
@@ -47,6 +36,17 @@ auto meanings() -> std::map<std::string, formats::Attribute> {
 
 }  // namespace
 
+auto value_json(const model::Value& value) -> Json {
+  return std::visit(
+      [](const auto& one) -> Json {
+        using Kind = std::decay_t<decltype(one)>;
+        if constexpr (std::is_same_v<Kind, std::monostate>) return nullptr;
+        else if constexpr (std::is_same_v<Kind, double>) return std::isfinite(one) ? Json(one) : Json(nullptr);
+        else return one;
+      },
+      value);
+}
+
 auto attributes_json(const model::City& city) -> Json {
   std::vector<std::string> order;
   std::set<std::string> seen;
@@ -58,9 +58,13 @@ auto attributes_json(const model::City& city) -> Json {
       parts.push_back({{"id", part.id}, {"values", values_of(part.attributes, order, seen)}});
     buildings.push_back({{"id", building.id}, {"values", std::move(own)}, {"parts", std::move(parts)}});
   }
+  return {{"attributes", meanings_json(order)}, {"buildings", std::move(buildings)}};
+}
+
+auto meanings_json(const std::vector<std::string>& names) -> Json {
   const auto known = meanings();
   Json list = Json::array();
-  for (const auto& name : order) {
+  for (const auto& name : names) {
     const auto at = known.find(name);
     const bool ours = at != known.end();
     list.push_back({{"name", name},
@@ -68,7 +72,7 @@ auto attributes_json(const model::City& city) -> Json {
                     {"unit", ours ? at->second.unit : ""},
                     {"meaning", ours ? at->second.meaning : ""}});
   }
-  return {{"attributes", std::move(list)}, {"buildings", std::move(buildings)}};
+  return list;
 }
 
 auto level_json(const model::City& city, formats::Lod lod, const solid::LevelOptions& options) -> Json {

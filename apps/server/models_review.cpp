@@ -219,7 +219,8 @@ auto Models::review_case(const std::string& building, const OpenScene* scene) co
       for (const auto& one : block->members)
         if (&one != member) others.insert(others.end(), one.polygons.begin(), one.polygons.end());
     }
-    const auto& reasons = reports_[*index].reasons;
+    const auto& text = reports_[*index].reasons;
+    const auto reasons = text.empty() ? Json::array() : Json::parse(text);
     const auto reason = reasons.empty() ? std::string() : reasons.front().value("code", std::string());
     if (const auto found =
             place_of(reason, {models, *scan, member->polygons, others, member->ground, options_.evaluate}))

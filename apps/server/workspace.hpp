@@ -103,6 +103,7 @@ class Workspace {
   [[nodiscard]] auto undo(const std::string& run, const std::string& client) -> Text;
   [[nodiscard]] auto redo(const std::string& run, const std::string& client) -> Text;
 
+  [[nodiscard]] auto column(const std::string& run, const std::string& attribute) -> Text;
   /// The attributes of all buildings and parts as they are now, or of one building, with units and meanings.
   [[nodiscard]] auto attributes(const std::string& run, const std::optional<std::string>& building) -> Text;
   /// The buildings at a lower level of detail: "1.2", "1.3" or "2.0".
@@ -178,6 +179,8 @@ class Workspace {
 
   // Decisions. `reviewed`: the city with those that hold as attributes.
   [[nodiscard]] auto decisions() const -> std::shared_ptr<const report::Decisions>;
+  /// Those that hold, as attributes by building.
+  [[nodiscard]] auto decided(const Models& models) const -> std::map<std::string, model::Attributes, std::less<>>;
   [[nodiscard]] auto reviewed(std::shared_ptr<const model::City> city, const Models& models) const
       -> std::shared_ptr<const model::City>;
   /// With review_mutex_ held.

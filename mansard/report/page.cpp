@@ -249,13 +249,13 @@ void add_accuracy(const RunPage& page, Html& html) {
     add("Where models and scan both have a surface", &RunScores::vertical, scores.median_absolute);
     add("Over the footprints; a missing model counts as the ground", &RunScores::footprint,
         scores.footprint_median_absolute);
-    add("Inside the outline of each block", &RunScores::inside, scores.inside_median);
-    add("Inside the outline of each building", &RunScores::inside_each, scores.inside_each_median);
+    add("Away from the outline of each block, the roofs", &RunScores::inside, scores.inside_median);
+    add("Away from the outline of each building", &RunScores::inside_each, scores.inside_each_median);
     html.table("Vertical error against the scan, as 'mansard evaluate' measures it",
                {{"Over"},
                 {"Mean square, m²", Html::Kind::number},
                 {"Root mean square, m", Html::Kind::number},
-                {"Median absolute, m", Html::Kind::number},
+                {"Median absolute of a block, mean, m", Html::Kind::number},
                 {"Cells", Html::Kind::number}},
                rows);
     if (std::ranges::count_if(page.run.blocks, [](const auto& b) { return b.vertical.has_value(); }) > 1)
@@ -265,8 +265,8 @@ void add_accuracy(const RunPage& page, Html& html) {
     else html.paragraph("With one block there is no standard error of these.", "quiet");
     rows.clear();
     if (scores.vertical) {
-      rows.push_back({"Median of model − scan", or_dash(scores.median, 3) + " m"});
-      rows.push_back({"95 % are within", or_dash(scores.p95_absolute, 3) + " m"});
+      rows.push_back({"Median of model − scan in a block, mean", or_dash(scores.median, 3) + " m"});
+      rows.push_back({"95 % of a block are within, mean", or_dash(scores.p95_absolute, 3) + " m"});
     }
     if (scores.missed) rows.push_back({"Area of the footprints without a model", or_dash(scores.missed, 1) + " m²"});
     if (scores.invented) rows.push_back({"Area of models outside the footprints", or_dash(scores.invented, 1) + " m²"});
