@@ -9,7 +9,7 @@ namespace mansard::server {
 namespace {
 
 /// The list of names, and the values in their order.
-struct Packed {
+struct Record {
   std::uint32_t names = 0;
   std::vector<model::Value> values;
 };
@@ -45,9 +45,9 @@ auto AttributesAside::Lists::number_of(const model::Attributes& attributes) -> s
 }
 
 void AttributesAside::add(model::Building& building) {
-  Packed own{of_buildings_.number_of(building.attributes), {}};
+  Record own{of_buildings_.number_of(building.attributes), {}};
   own.values = values_of(building.attributes);
-  std::vector<Packed> parts;
+  std::vector<Record> parts;
   for (auto& part : building.parts) {
     parts.push_back({of_parts_.number_of(part.attributes), {}});
     parts.back().values = values_of(part.attributes);
@@ -65,15 +65,15 @@ auto AttributesAside::restore(std::size_t number, model::Building& building) con
     if (!read) return read.failure();
     bytes = std::move(*read);
   }
-  std::pair<Packed, std::vector<Packed>> all;
+  std::pair<Record, std::vector<Record>> all;
   base::Unpacker from(bytes);
   if (!from.take(all) || !from.done() || all.second.size() != building.parts.size())
     return base::error("file-write", "what was put aside in the folder for temporary files (TMPDIR) was changed there");
-  const auto put = [](Packed& packed, const std::vector<Names>& names, model::Attributes& to) {
+  const auto put = [](Record& record, const std::vector<Names>& names, model::Attributes& to) {
     to.clear();
-    to.reserve(packed.values.size());
-    for (std::size_t i = 0; i < packed.values.size(); ++i)
-      to.emplace_back(names[packed.names][i], std::move(packed.values[i]));
+    to.reserve(record.values.size());
+    for (std::size_t i = 0; i < record.values.size(); ++i)
+      to.emplace_back(names[record.names][i], std::move(record.values[i]));
   };
   put(all.first, of_buildings_.all, building.attributes);
   for (std::size_t p = 0; p < building.parts.size(); ++p)

@@ -108,7 +108,7 @@ export class Far {
     private readonly arrived: () => void,
   ) {
     this.material = modelMaterial(look);
-    // What is not painted has no buffer for it.
+    // Prisms without colours of their own have no buffer for them.
     (this.material as THREE.ShaderMaterial & { defaultAttributeValues: Record<string, number[]> }).defaultAttributeValues = {
       ...this.material.defaultAttributeValues,
       paint: [0, 0, 0, 0],
