@@ -13,13 +13,13 @@
 #include "apps/cli/layout.hpp"
 #include "apps/cli/settings.hpp"
 #include "apps/cli/verbs.hpp"
-#include "apps/server/review.hpp"
 #include "lab/simulate/attributes.hpp"
 #include "lab/simulate/simulate.hpp"
 #include "mansard/edit/attributes.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/report/attributes.hpp"
 #include "mansard/report/changes.hpp"
+#include "mansard/report/review.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -188,7 +188,7 @@ void print_json(const Known& known, const CLI::App& app, bool all) {
 auto all_attributes() -> std::vector<formats::Attribute> {
   auto all = report::attributes();
   for (const auto& own :
-       {report::change_attribute_list(), edit::attributes(), server::review_attributes(), simulate::attributes()})
+       {report::change_attribute_list(), edit::attributes(), report::review_attributes(), simulate::attributes()})
     all.insert(all.end(), own.begin(), own.end());
   return all;
 }

@@ -125,7 +125,7 @@ auto formats_in(const std::string& list) -> base::Result<std::vector<Format>> {
 
 auto all_results() -> const std::vector<std::string>& {
   static const std::vector<std::string> all = [] {
-    std::vector<std::string> names{"run.json"};
+    std::vector<std::string> names{"run.json", run_report_name};
     names.insert(names.end(), picture_names.begin(), picture_names.end());
     for (const auto& format : formats::formats()) {
       const Target target{format.format, name_in_folder(format.format)};

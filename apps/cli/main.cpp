@@ -177,6 +177,7 @@ auto run(int argc, char** argv) -> int {
                                 doctor_verb(app, cancel),
                                 evaluate_verb(app, cancel),
                                 compare_verb(app, cancel),
+                                report_verb(app, cancel),
                                 segment_verb(app, typed, cancel),
                                 label_verb(app, cancel),
                                 new_verb(app, cancel),

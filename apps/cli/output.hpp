@@ -53,6 +53,8 @@ void remove_stale(const std::vector<std::filesystem::path>& left, const std::vec
                              const std::vector<std::pair<std::string, std::string>>& named)
     -> std::vector<base::FileToWrite>;
 
+/// What `mansard report` writes into the folder of a run.
+inline constexpr auto run_report_name = "report.html";
 inline constexpr std::array picture_names{"picture.png", "above.png", "error.png"};
 
 }  // namespace mansard::cli

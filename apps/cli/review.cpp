@@ -12,8 +12,8 @@
 #include "apps/cli/exit.hpp"
 #include "apps/cli/output.hpp"
 #include "apps/cli/verbs.hpp"
-#include "apps/server/review.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/report/review.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -26,21 +26,21 @@ struct ReviewVerbRequest {
   bool overwrite = false, quiet = false;
 };
 
-using Counts = std::array<std::size_t, server::verdict_names.size()>;
+using Counts = std::array<std::size_t, report::verdict_names.size()>;
 
 auto in_words(const Counts& counts) -> std::string {
   std::string out;
   for (std::size_t v = 0; v < counts.size(); ++v)
-    ((out += v == 0 ? "" : ", ") += std::to_string(counts[v]) + ' ') += server::verdict_names[v];
+    ((out += v == 0 ? "" : ", ") += std::to_string(counts[v]) + ' ') += report::verdict_names[v];
   return out;
 }
 
-auto by_whom(const server::Decision& one) -> std::string {
-  return std::string(server::to_string(one.verdict)) + " (" +
+auto by_whom(const report::Decision& one) -> std::string {
+  return std::string(report::to_string(one.verdict)) + " (" +
          (one.reviewer.empty() ? std::string("no name") : base::on_one_line(one.reviewer)) + ", " + one.time + ")";
 }
 
-void print_counts(const server::Decisions& decisions) {
+void print_counts(const report::Decisions& decisions) {
   Counts all{};
   std::map<std::string, Counts> of;
   for (const auto& [building, one] : decisions) {
@@ -60,17 +60,17 @@ auto review(const ReviewVerbRequest& request) -> int {
     for (const auto& input : request.inputs) {
       const fs::path path(input);
       std::error_code status;
-      inputs.push_back(fs::is_directory(path, status) ? path / server::review_file : path);
+      inputs.push_back(fs::is_directory(path, status) ? path / report::review_file : path);
     }
     if (auto spared = spare_inputs({request.out}, inputs); !spared) return give_up(spared.errors());
     if (auto free = file_free(request.out, request.overwrite); !free) return give_up(free.errors());
   }
-  server::Decisions all;
-  std::vector<server::MergedReview::Conflict> conflicts;
+  report::Decisions all;
+  std::vector<report::MergedReview::Conflict> conflicts;
   for (const auto& input : request.inputs) {
-    const auto own = server::read_review(input);
+    const auto own = report::read_review(input);
     if (!own) return give_up(own.errors());
-    auto both = server::merged(all, *own);
+    auto both = report::merged(all, *own);
     all = std::move(both.decisions);
     conflicts.insert(conflicts.end(), both.conflicts.begin(), both.conflicts.end());
   }
@@ -81,7 +81,7 @@ auto review(const ReviewVerbRequest& request) -> int {
                   by_whom(dropped).c_str());
   }
   if (request.out.empty()) return all_done;
-  const auto text = server::review_text(all);
+  const auto text = report::review_text(all);
   if (auto written = base::write_files({{request.out, text}}); !written) return give_up(written.errors());
   std::printf("%s\n", request.out.c_str());
   return all_done;

@@ -22,6 +22,7 @@ struct Verb {
 [[nodiscard]] auto simulate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto evaluate_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto compare_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
+[[nodiscard]] auto report_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto label_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto explore_verb(CLI::App& app, std::vector<std::string> words, const base::Cancel& cancel) -> Verb;
 [[nodiscard]] auto convert_verb(CLI::App& app, const base::Cancel& cancel) -> Verb;

@@ -11,6 +11,7 @@
 #include "mansard/label/scan.hpp"
 #include "mansard/pipeline/evaluation.hpp"
 #include "mansard/pipeline/inputs.hpp"
+#include "mansard/pipeline/run_report.hpp"
 #include "mansard/pipeline/states.hpp"
 #include "mansard/pipeline/stored.hpp"
 #include "mansard/report/layers.hpp"
@@ -179,6 +180,16 @@ auto compared(const StatePaths& old_paths, const StatePaths& new_paths, bool sca
   });
 }
 
+auto run_report(const fs::path& run_folder, const std::vector<fs::path>& scan, bool use_scans,
+                const std::vector<fs::path>& reviews, const fs::path& changes, std::size_t worst,
+                const std::string& title, const std::string& date, const py::object& progress) -> std::string {
+  return run_for(progress, 0, [&](const base::Run& run) -> base::Result<std::string> {
+    auto made = pipeline::run_report(run_folder, {scan, use_scans, reviews, changes, worst, title, date}, run);
+    if (!made) return made.failure();
+    return std::move(made->html);
+  });
+}
+
 auto label(const std::vector<fs::path>& meshes, const fs::path& model_path, const std::string& lod,
            const Settings& settings, const py::object& progress) -> py::tuple {
   const auto options = options_of("", settings);
@@ -310,6 +321,8 @@ void bind_functions(py::module_& m) {
         py::arg("lod"), py::arg("preset"), py::arg("settings"), py::arg("progress"));
   m.def("compare", &compared, py::arg("old"), py::arg("new"), py::arg("scans"), py::arg("settings"),
         py::arg("progress"));
+  m.def("report", &run_report, py::arg("run"), py::arg("scan"), py::arg("use_scans"), py::arg("reviews"),
+        py::arg("changes"), py::arg("worst"), py::arg("title"), py::arg("date"), py::arg("progress"));
   m.def("label", &label, py::arg("meshes"), py::arg("model"), py::arg("lod"), py::arg("settings"), py::arg("progress"));
   m.def("simulate", &simulated, py::arg("kind"), py::arg("footprints"), py::arg("preset"), py::arg("settings"),
         py::arg("progress"));

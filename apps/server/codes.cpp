@@ -67,10 +67,6 @@ auto codes() -> std::vector<base::Code> {
       {"server-import", "The models to open are in another CRS than the mesh of the project.",
        "Open them in a project of their own, or convert them to the CRS of the mesh.", usage},
       {"server-listeners", "Too many pages are connected to the server.", "Close some of them.", usage},
-      {"review-file", "The decisions of a review cannot be read: the file is damaged, or of another kind.",
-       "Give review.json of a project, or the folder of the project. Restore a damaged file from a backup, or move it "
-       "away: without the file, no building is decided.",
-       unreadable},
       {"edit-invalid", "The edit was not applied: a building's models would not be valid.",
        "Correct what the message names in the plan, and apply the edit again.", usage},
   };

@@ -7,16 +7,36 @@
 #include <set>
 #include <variant>
 
-#include "apps/server/review.hpp"
 #include "mansard/base/run.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/edit/attributes.hpp"
 #include "mansard/report/attributes.hpp"
+#include "mansard/report/review.hpp"
 
 namespace mansard::server {
 namespace {
 
-auto json_of(const model::Value& value) -> Json {
+auto values_of(const model::Attributes& attributes, std::vector<std::string>& order, std::set<std::string>& seen)
+    -> Json {
+  Json values = Json::object();
+  for (const auto& [name, value] : attributes) {
+    if (seen.insert(name).second) order.push_back(name);
+    values[name] = value_json(value);
+  }
+  return values;
+}
+
+/// By name, of the one list of attributes.
+auto meanings() -> std::map<std::string, formats::Attribute> {
+  std::map<std::string, formats::Attribute> known;
+  for (const auto& list : {report::attributes(), edit::attributes(), report::review_attributes()})
+    for (const auto& attribute : list) known.emplace(attribute.name, attribute);
+  return known;
+}
+
+}  // namespace
+
+auto value_json(const model::Value& value) -> Json {
   return std::visit(
       [](const auto& one) -> Json {
         using Kind = std::decay_t<decltype(one)>;
@@ -26,26 +46,6 @@ auto json_of(const model::Value& value) -> Json {
       },
       value);
 }
-
-auto values_of(const model::Attributes& attributes, std::vector<std::string>& order, std::set<std::string>& seen)
-    -> Json {
-  Json values = Json::object();
-  for (const auto& [name, value] : attributes) {
-    if (seen.insert(name).second) order.push_back(name);
-    values[name] = json_of(value);
-  }
-  return values;
-}
-
-/// By name, of the one list of attributes.
-auto meanings() -> std::map<std::string, formats::Attribute> {
-  std::map<std::string, formats::Attribute> known;
-  for (const auto& list : {report::attributes(), edit::attributes(), review_attributes()})
-    for (const auto& attribute : list) known.emplace(attribute.name, attribute);
-  return known;
-}
-
-}  // namespace
 
 auto attributes_json(const model::City& city) -> Json {
   std::vector<std::string> order;
@@ -58,9 +58,13 @@ auto attributes_json(const model::City& city) -> Json {
       parts.push_back({{"id", part.id}, {"values", values_of(part.attributes, order, seen)}});
     buildings.push_back({{"id", building.id}, {"values", std::move(own)}, {"parts", std::move(parts)}});
   }
+  return {{"attributes", meanings_json(order)}, {"buildings", std::move(buildings)}};
+}
+
+auto meanings_json(const std::vector<std::string>& names) -> Json {
   const auto known = meanings();
   Json list = Json::array();
-  for (const auto& name : order) {
+  for (const auto& name : names) {
     const auto at = known.find(name);
     const bool ours = at != known.end();
     list.push_back({{"name", name},
@@ -68,7 +72,7 @@ auto attributes_json(const model::City& city) -> Json {
                     {"unit", ours ? at->second.unit : ""},
                     {"meaning", ours ? at->second.meaning : ""}});
   }
-  return {{"attributes", std::move(list)}, {"buildings", std::move(buildings)}};
+  return list;
 }
 
 auto level_json(const model::City& city, formats::Lod lod, const solid::LevelOptions& options) -> Json {

@@ -16,6 +16,11 @@ namespace mansard::server {
 /// Attributes: those of the source and those that mansard computed, per building and part, and what they mean.
 [[nodiscard]] auto attributes_json(const model::City& city) -> Json;
 
+/// AttributeMeaning of each name, in that order.
+[[nodiscard]] auto meanings_json(const std::vector<std::string>& names) -> Json;
+/// A value as JSON; null where it is no finite number.
+[[nodiscard]] auto value_json(const model::Value& value) -> Json;
+
 /// LevelsOfDetail: the solids of every building at one level of detail. `lod` is "1.2", "1.3" or "2.0".
 [[nodiscard]] auto level_json(const model::City& city, formats::Lod lod, const solid::LevelOptions& options) -> Json;
 

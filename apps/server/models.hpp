@@ -20,17 +20,18 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/server/attributes_aside.hpp"
 #include "apps/server/disk.hpp"
 #include "apps/server/json.hpp"
 #include "apps/server/project.hpp"
 #include "apps/server/requests.hpp"
-#include "apps/server/review.hpp"
 #include "apps/server/scene.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/edit/edit.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/geometry/points.hpp"
 #include "mansard/pipeline/pipeline.hpp"
+#include "mansard/report/review.hpp"
 
 namespace mansard::server {
 
@@ -65,6 +66,12 @@ class Models {
   [[nodiscard]] auto list() const -> std::string;
   /// The buildings in a tile of the list: those whose box in plan has its centre there.
   [[nodiscard]] auto tile(std::int64_t column, std::int64_t row) const -> std::string;
+  /// AttributeColumn: the values of one attribute of all buildings, in the order of the list; of an attribute of parts
+  /// that of the first part that has it. Attributes that mansard computed are null where the building was edited since.
+  /// `more` as for `search`. Fails with "server-unknown" where no building has it.
+  [[nodiscard]] auto column(const std::string& attribute,
+                            const std::map<std::string, model::Attributes, std::less<>>& more) const
+      -> base::Result<std::string>;
   /// {"ids": …}: the buildings with every word in their id, block, outcome or attributes, as the page finds them.
   /// `more`: attributes of buildings that are not in the files of the run, by id.
   [[nodiscard]] auto search(const std::string& words,
@@ -158,10 +165,16 @@ class Models {
   };
 
   Models(model::City city, edit::History history, Journal journal, pipeline::Options options);
+  /// The building of the run with its attributes. Fails as AttributesAside::restore.
+  [[nodiscard]] auto with_attributes(std::size_t building) const -> base::Result<model::Building>;
+  /// Of a large run the attributes alone, of a building and of its parts.
+  [[nodiscard]] auto attributes_of(std::size_t building, model::Building& to) const -> base::Result<void>;
   [[nodiscard]] auto view() const -> std::shared_ptr<const View>;
   [[nodiscard]] auto read_reports(const std::filesystem::path& path) -> base::Result<void>;
   [[nodiscard]] auto raise_all(const OpenScene* scene) -> base::Result<void>;
   void list_all(const OpenScene* scene);
+  /// Of the attributes of buildings, then of parts, then of decisions.
+  [[nodiscard]] auto names() const -> std::vector<std::string>;
   /// The building with its models: from the view, or of a large run made now. Those made last are kept.
   [[nodiscard]] auto made(std::size_t at, const View& view) const -> std::shared_ptr<const Seen>;
   [[nodiscard]] auto made_all(const std::vector<std::size_t>& which, const View& view) const
@@ -200,11 +213,18 @@ class Models {
   std::map<std::string, std::size_t, std::less<>> index_;
   struct Report {
     std::string block, outcome;
-    Json reasons;  ///< an array; null for none
+    std::string reasons;  ///< an array of Diagnostic; empty for none
     double ground = 0, volume = 0;
     std::optional<double> confidence;  ///< probability that the model of the run is right
   };
-  std::vector<Report> reports_;  // what edits do not change, and the volume that the run measured
+  /// What is kept of the attributes of a large run, which are not in `city_`.
+  struct Own {
+    bool marked = false;                     ///< edited before it was exported and opened again
+    std::vector<std::optional<float>> rmse;  ///< m; of the parts
+  };
+  std::vector<Own> own_;                    // empty where the attributes are in `city_`
+  std::unique_ptr<AttributesAside> aside_;  // likewise
+  std::vector<Report> reports_;             // what edits do not change, and the volume that the run measured
 
   std::mutex edits_;  // guards the next two
   edit::History history_;

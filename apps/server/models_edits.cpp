@@ -185,7 +185,16 @@ auto Models::edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<co
     const std::scoped_lock adding(mutex);
     return used.emplace_back(std::move(mesh)).get();
   };
-  auto city = edit::edited_city(city_, *history, mesh_of, options_);
+  model::City whole;  // an export needs all of it in memory
+  if (aside_) {
+    whole = {city_.frame, city_.made_by, {}};
+    for (std::size_t b = 0; b < city_.buildings.size(); ++b) {
+      auto own = with_attributes(b);
+      if (!own) return own.error();
+      whole.buildings.push_back(std::move(*own));
+    }
+  }
+  auto city = edit::edited_city(aside_ ? whole : city_, *history, mesh_of, options_);
   if (!city) return city.error();
   export_ = Export{number, scene != nullptr, std::make_shared<const model::City>(std::move(*city))};
   return export_->city;

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
+#include "apps/server/inspect.hpp"
 #include "apps/server/model_boxes.hpp"
 #include "apps/server/models.hpp"
 #include "mansard/base/text.hpp"
@@ -51,7 +53,7 @@ auto shapes_of(const std::vector<edit::NamedPlan>& parts) -> std::string {
 
 /// One column of the list.
 template <class Rows, class Text>
-auto column(const char* name, const Rows& rows, Text text) -> std::string {
+auto listed(const char* name, const Rows& rows, Text text) -> std::string {
   std::string out = std::string(",\"") + name + "\":[";
   for (std::size_t i = 0; i < rows.size(); ++i) (out += i == 0 ? "" : ",") += text(i);
   return out + ']';
@@ -123,20 +125,21 @@ auto Models::list() const -> std::string {
   const auto& all = now->buildings;
   std::string reasons;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (!reports_[i].reasons.is_null())
-      (((reasons += reasons.empty() ? "" : ",") += text_of(all[i]->id)) += ':') += text_of(reports_[i].reasons);
+    if (!reports_[i].reasons.empty())
+      (((reasons += reasons.empty() ? "" : ",") += text_of(all[i]->id)) += ':') += reports_[i].reasons;
   std::string out = R"({"tile_size":)" + std::to_string(tile_size);
-  out += column("ids", all, [&](auto i) { return text_of(all[i]->id); });
-  out += column("blocks", all, [&](auto i) { return text_of(reports_[i].block); });
-  out += column("outcomes", all, [&](auto i) { return text_of(reports_[i].outcome); });
-  out += column("volumes", all, [&](auto i) { return text_of(std::round(all[i]->volume * 100) / 100); });
-  out += column("errors", all, [&](auto i) { return all[i]->mse ? text_of(*all[i]->mse) : std::string("null"); });
-  out += column("confidences", all, [&](auto i) {
+  out += listed("ids", all, [&](auto i) { return text_of(all[i]->id); });
+  out += listed("blocks", all, [&](auto i) { return text_of(reports_[i].block); });
+  out += listed("outcomes", all, [&](auto i) { return text_of(reports_[i].outcome); });
+  out += listed("volumes", all, [&](auto i) { return text_of(std::round(all[i]->volume * 100) / 100); });
+  out += listed("errors", all, [&](auto i) { return all[i]->mse ? text_of(*all[i]->mse) : std::string("null"); });
+  out += listed("confidences", all, [&](auto i) {
     const auto& right = reports_[i].confidence;
     return right && !all[i]->edited ? text_of(*right) : std::string("null");
   });
-  out += column("edited", all, [&](auto i) { return std::string(all[i]->edited ? "true" : "false"); });
-  out += column("shapes", all, [&](auto i) { return shapes_of(all[i]->parts); });
+  out += listed("edited", all, [&](auto i) { return std::string(all[i]->edited ? "true" : "false"); });
+  out += listed("shapes", all, [&](auto i) { return shapes_of(all[i]->parts); });
+  out += R"(,"attributes":)" + text_of(meanings_json(names()));
   return out + R"(,"reasons":{)" + reasons + R"(},"history":)" + text_of(now->history) + '}';
 }
 
@@ -150,6 +153,69 @@ auto Models::tile(std::int64_t column, std::int64_t row) const -> std::string {
   return R"({"buildings":[)" + out + "]}";
 }
 
+auto Models::names() const -> std::vector<std::string> {
+  std::vector<std::string> order;
+  std::set<std::string, std::less<>> seen;
+  std::vector<std::string_view> last, now;  // most buildings have the names of the one before
+  const auto note = [&](const std::string& name) {
+    if (seen.insert(name).second) order.push_back(name);
+  };
+  if (aside_) std::ranges::for_each(aside_->names(), note);
+  const auto add = [&](const model::Attributes& attributes) {
+    now.clear();
+    for (const auto& one : attributes) now.emplace_back(one.first);
+    if (now == last) return;
+    for (const auto name : now)
+      if (seen.emplace(name).second) order.emplace_back(name);
+    std::swap(last, now);
+  };
+  for (const auto& building : city_.buildings) add(building.attributes);
+  for (const auto& building : city_.buildings)
+    for (const auto& part : building.parts) add(part.attributes);
+  for (const auto& own : report::review_attributes()) note(own.name);
+  return order;
+}
+
+auto Models::column(const std::string& attribute,
+                    const std::map<std::string, model::Attributes, std::less<>>& more) const
+    -> base::Result<std::string> {
+  const auto known = names();
+  if (std::ranges::find(known, attribute) == known.end())
+    return base::error("server-unknown", "no building of the run has this attribute", base::on_one_line(attribute));
+  const auto meaning = meanings_json({attribute});
+  const bool computed = !meaning[0]["source"].get<bool>();
+  const auto of_reviews = report::review_attributes();
+  const bool of_review = std::ranges::find(of_reviews, attribute, &formats::Attribute::name) != of_reviews.end();
+  const auto in = [&](const model::Attributes& attributes) {
+    return std::ranges::find(attributes, attribute, &model::Attributes::value_type::first);
+  };
+  const auto now = view();
+  std::string out = R"({"attribute":)" + text_of(meaning[0]) + R"(,"values":[)";
+  for (std::size_t b = 0; b < now->buildings.size(); ++b) {
+    if (b > 0) out += ',';
+    model::Building kept;
+    if (aside_)
+      if (auto read = attributes_of(b, kept); !read) return read.failure();
+    const auto& building = aside_ ? kept : city_.buildings[b];
+    const auto& id = now->buildings[b]->id;
+    if (of_review)
+      if (const auto decided = more.find(id); decided != more.end()) {
+        const auto at = in(decided->second);
+        out += at == decided->second.end() ? std::string("null") : text_of(value_json(at->second));
+        continue;
+      }
+    const model::Value* value = nullptr;
+    if (const auto at = in(building.attributes); at != building.attributes.end()) value = &at->second;
+    for (const auto& part : building.parts) {
+      if (value != nullptr) break;
+      if (const auto at = in(part.attributes); at != part.attributes.end()) value = &at->second;
+    }
+    const bool changed = computed && now->buildings[b]->edited && model_now(id)->changed;
+    out += value == nullptr || changed ? std::string("null") : text_of(value_json(*value));
+  }
+  return out + "]}";
+}
+
 auto Models::search(const std::string& words, const std::map<std::string, model::Attributes, std::less<>>& more) const
     -> std::string {
   const auto now = view();
@@ -157,8 +223,11 @@ auto Models::search(const std::string& words, const std::map<std::string, model:
   std::string out;
   for (std::size_t b = 0; b < now->buildings.size(); ++b) {
     const auto& building = *now->buildings[b];
-    std::vector<const model::Attributes*> lists{&city_.buildings[b].attributes};
-    for (const auto& part : city_.buildings[b].parts) lists.push_back(&part.attributes);
+    model::Building kept;
+    if (aside_) (void)attributes_of(b, kept);  // where the disk fails it is found by the rest
+    const auto& own = aside_ ? kept : city_.buildings[b];
+    std::vector<const model::Attributes*> lists{&own.attributes};
+    for (const auto& part : own.parts) lists.push_back(&part.attributes);
     if (const auto found = more.find(building.id); found != more.end()) lists.push_back(&found->second);
     const auto has = [&](const Term& term) {
       if (term.is != 0) return holds(term, lists);
@@ -213,7 +282,7 @@ auto Models::edited_around(const std::string& building, const SceneOrNone& scene
   const auto at = index_.find(building);
   if (at == index_.end())
     return base::error("edit-building", "unknown building; /api/runs/{run}/list lists those of the run", building);
-  model::City city{city_.frame, city_.made_by, {city_.buildings[at->second]}};
+  model::City city{city_.frame, city_.made_by, {}};
   std::vector<edit::Change> changes;
   const auto take = [&](std::size_t b) {
     const auto& building_now = *now->buildings[b];
@@ -223,12 +292,17 @@ auto Models::edited_around(const std::string& building, const SceneOrNone& scene
     });
     if (!same) changes.push_back({building_now.id, 0, building_now.parts});
   };
-  take(at->second);
+  const auto add = [&](std::size_t b) -> base::Result<void> {
+    auto own = with_attributes(b);
+    if (!own) return own.failure();
+    city.buildings.push_back(std::move(*own));
+    take(b);
+    return {};
+  };
+  if (auto added = add(at->second); !added) return added.failure();
   for (std::size_t b = 0; b < now->buildings.size(); ++b)
-    if (b != at->second && touch(now->buildings[at->second]->box, now->buildings[b]->box)) {
-      city.buildings.push_back(city_.buildings[b]);
-      take(b);
-    }
+    if (b != at->second && touch(now->buildings[at->second]->box, now->buildings[b]->box))
+      if (auto added = add(b); !added) return added.failure();
   edit::History history(city);
   if (!changes.empty())
     if (auto applied = history.apply({"edits", std::move(changes)}); !applied) return applied.error();

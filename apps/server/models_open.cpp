@@ -1,14 +1,17 @@
 // Models: opened from what a run left, all plans extruded.
 #include "apps/server/models.hpp"
 
+#include <malloc.h>
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <functional>
 
 #include "apps/server/model_boxes.hpp"
 #include "apps/server/options.hpp"
-#include "mansard/base/files.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/formats/plans.hpp"
+#include "mansard/formats/stream.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::server {
@@ -61,6 +64,28 @@ auto mean_error(const std::vector<edit::RaisedPart>& parts) -> std::optional<dou
 
 }  // namespace
 
+namespace {
+
+/// The plans of a large run, with the attributes put aside.
+auto read_aside(const std::filesystem::path& path, AttributesAside& aside,
+                const std::function<void(const model::Building&)>& look) -> base::Result<model::City> {
+  auto reader = formats::read_city(path);
+  if (!reader) return reader.failure();
+  model::City city{(*reader)->header().frame, (*reader)->header().made_by, {}};
+  while (true) {
+    auto next = (*reader)->next();
+    if (!next) return next.failure();
+    if (!*next) break;
+    look(**next);
+    aside.add(**next);
+    city.buildings.push_back(std::move(**next));
+  }
+  if (auto refused = (*reader)->refused(); !refused.empty()) return base::Failure{std::move(refused)};
+  return city;
+}
+
+}  // namespace
+
 Models::Models(model::City city, edit::History history, Journal journal, pipeline::Options options)
     : city_(std::move(city)), options_(std::move(options)), history_(std::move(history)), journal_(std::move(journal)) {
   for (std::size_t b = 0; b < city_.buildings.size(); ++b) index_[city_.buildings[b].id] = b;
@@ -70,7 +95,24 @@ auto Models::open(const std::filesystem::path& folder, const RunRecord& run, con
                   const std::string& inputs) -> base::Result<std::shared_ptr<Models>> {
   pipeline::Options options;
   if (auto set = set_all(options, run.options); !set) return set.error();
-  auto city = formats::read_plans(folder / "plans.json");
+  const bool large = run.buildings > most_at_once;
+  std::unique_ptr<AttributesAside> aside;
+  std::vector<Own> own;
+  if (large) {
+    auto opened = AttributesAside::open();
+    if (!opened) return opened.error();
+    aside = std::move(*opened);
+  }
+  auto city = large ? read_aside(folder / "plans.json", *aside,
+                                 [&](const model::Building& building) {
+                                   Own of{has_mark(building), {}};
+                                   for (const auto& part : building.parts) {
+                                     const auto rmse = number(part.attributes, "ms_rmse_lod22");
+                                     of.rmse.push_back(rmse ? std::optional(static_cast<float>(*rmse)) : std::nullopt);
+                                   }
+                                   own.push_back(std::move(of));
+                                 })
+                    : formats::read_plans(folder / "plans.json");
   if (!city) return city.error();
   const auto path = journal_of(folder);
   const auto text = read_journal(path);
@@ -85,9 +127,12 @@ auto Models::open(const std::filesystem::path& folder, const RunRecord& run, con
   if (!journal) return journal.error();
   const std::shared_ptr<Models> models(
       new Models(std::move(*city), std::move(replayed->history), std::move(*journal), std::move(options)));
+  models->aside_ = std::move(aside);
+  models->own_ = std::move(own);
   if (auto read = models->read_reports(folder / "report.json"); !read) return read.error();
   if (models->city_.buildings.size() > most_at_once) {
     models->list_all(scene.get());
+    ::malloc_trim(0);  // what reading took is not kept
     return models;
   }
   models->folder_ = folder;
@@ -99,25 +144,35 @@ auto Models::open(const std::filesystem::path& folder, const RunRecord& run, con
 }
 
 auto Models::read_reports(const std::filesystem::path& path) -> base::Result<void> {
-  const auto text = base::read_file(path);
-  if (!text) return text.error();
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return base::error("file-missing", "the report of the run is missing; delete the run", path.string());
+  const auto z0 = static_cast<double>(city_.frame.origin[2]);
+  reports_.resize(city_.buildings.size());
+  const auto read = [&](const Json& building) {
+    const auto at = index_.find(building.at("id").get<std::string>());
+    if (at == index_.end()) return;
+    auto& report = reports_[at->second];
+    if (const auto& reasons = building.at("reasons"); !reasons.empty()) report.reasons = text_of(reasons);
+    report.block = building.at("block").get<std::string>();
+    report.outcome = building.at("outcome").get<std::string>();
+    // The report has no ground height for a building without parts; the plans have it.
+    report.ground =
+        building.contains("ground_m") ? building.at("ground_m").get<double>() - z0 : city_.buildings[at->second].ground;
+    if (building.contains("confidence")) report.confidence = building.at("confidence").at("right").get<double>();
+    if (building.contains("volume_m3")) report.volume = building.at("volume_m3").get<double>();
+  };
   try {
-    const auto json = Json::parse(*text);
-    const auto z0 = static_cast<double>(city_.frame.origin[2]);
-    reports_.resize(city_.buildings.size());
-    for (const auto& building : json.at("buildings")) {
-      const auto at = index_.find(building.at("id").get<std::string>());
-      if (at == index_.end()) continue;
-      auto& report = reports_[at->second];
-      for (const auto& reason : building.at("reasons")) report.reasons.push_back(reason);
-      report.block = building.at("block").get<std::string>();
-      report.outcome = building.at("outcome").get<std::string>();
-      // The report has no ground height for a building without parts; the plans have it.
-      report.ground = building.contains("ground_m") ? building.at("ground_m").get<double>() - z0
-                                                    : city_.buildings[at->second].ground;
-      if (building.contains("confidence")) report.confidence = building.at("confidence").at("right").get<double>();
-      if (building.contains("volume_m3")) report.volume = building.at("volume_m3").get<double>();
-    }
+    std::string list;  // the member of the whole that is being read
+    // Items of the long lists are dropped as soon as they are whole.
+    const auto whole = Json::parse(file, [&](int depth, Json::parse_event_t event, Json& parsed) {
+      if (event == Json::parse_event_t::key && depth == 1) list = parsed.get<std::string>();
+      if (event != Json::parse_event_t::object_end || depth != 2) return true;
+      if (list == "buildings") read(parsed);
+      return list != "buildings" && list != "blocks" && list != "warnings";
+    });
+    if (!whole.is_object())
+      return base::error("server-project", "the report of a run is no JSON object; restore the file, or delete the run",
+                         path.string());
     for (std::size_t b = 0; b < reports_.size(); ++b)
       if (reports_[b].outcome.empty())
         return base::error("server-project",
@@ -227,8 +282,24 @@ void Models::list_all(const OpenScene* scene) {
 }
 
 auto Models::mse_of_run(std::size_t building, std::size_t part) const -> std::optional<double> {
+  if (aside_) {
+    const auto& rmse = own_[building].rmse;
+    return part < rmse.size() && rmse[part] ? squared(static_cast<double>(*rmse[part])) : std::nullopt;
+  }
   const auto& parts = city_.buildings[building].parts;
   return part < parts.size() ? squared(number(parts[part].attributes, "ms_rmse_lod22")) : std::nullopt;
+}
+
+auto Models::with_attributes(std::size_t building) const -> base::Result<model::Building> {
+  auto out = city_.buildings[building];
+  if (aside_)
+    if (auto restored = aside_->restore(building, out); !restored) return restored.failure();
+  return out;
+}
+
+auto Models::attributes_of(std::size_t building, model::Building& to) const -> base::Result<void> {
+  to.parts.resize(city_.buildings[building].parts.size());
+  return aside_->restore(building, to);
 }
 
 auto Models::named(const std::string& id) const -> Seen {
@@ -237,7 +308,8 @@ auto Models::named(const std::string& id) const -> Seen {
   out.revision = history_.revision(id);
   out.parts = *history_.parts(id);
   out.box = box_of(out.parts);
-  out.edited = history_.edited(id) || has_mark(city_.buildings[index_.find(id)->second]);
+  const auto at = index_.find(id)->second;
+  out.edited = history_.edited(id) || (aside_ ? own_[at].marked : has_mark(city_.buildings[at]));
   return out;
 }
 
@@ -262,7 +334,7 @@ auto Models::with_models(Seen named, const edit::RaisedBuilding& raised) const -
   const auto& report = reports_[index_.find(out->id)->second];
   json["block"] = report.block;
   json["outcome"] = report.outcome;
-  json["reasons"] = report.reasons.is_null() ? Json::array() : report.reasons;
+  json["reasons"] = report.reasons.empty() ? Json::array() : Json::parse(report.reasons);
   json["ground"] = report.ground;
   json["edited"] = out->edited;
   json["confidence"] = report.confidence && !out->edited ? Json(*report.confidence) : Json(nullptr);

@@ -188,7 +188,9 @@ auto Models::model_now(std::string_view building) const -> std::optional<ModelNo
   const auto& first = city_.buildings[at->second].parts;
   const bool same = std::ranges::equal(first, known.parts,
                                        [](const auto& part, const auto& now_has) { return part.plan == now_has.plan; });
-  return ModelNow{model_key(known.parts, city_.frame), known.revision, !same};
+  std::vector<const model::Plan*> plans;
+  for (const auto& part : known.parts) plans.push_back(&part.plan);
+  return ModelNow{report::model_key(plans, city_.frame), known.revision, !same};
 }
 
 auto Models::review_case(const std::string& building, const OpenScene* scene) const -> base::Result<std::string> {
@@ -217,7 +219,8 @@ auto Models::review_case(const std::string& building, const OpenScene* scene) co
       for (const auto& one : block->members)
         if (&one != member) others.insert(others.end(), one.polygons.begin(), one.polygons.end());
     }
-    const auto& reasons = reports_[*index].reasons;
+    const auto& text = reports_[*index].reasons;
+    const auto reasons = text.empty() ? Json::array() : Json::parse(text);
     const auto reason = reasons.empty() ? std::string() : reasons.front().value("code", std::string());
     if (const auto found =
             place_of(reason, {models, *scan, member->polygons, others, member->ground, options_.evaluate}))

@@ -228,7 +228,7 @@ auto read_review_request(std::string_view body) -> base::Result<ReviewRequest> {
     item.object({"building", "revision", "decision", "note"});
     ReviewRequest request{item.member("building").text(), item.member("revision").integer(), {}, {}};
     if (const auto decision = item.member("decision"); !decision.json.is_null()) {
-      request.decision = verdict_of(decision.text());
+      request.decision = report::verdict_of(decision.text());
       if (!request.decision) decision.refuse("\"right\", \"wrong\", \"later\" or null");
     }
     if (item.has("note")) request.note = base::on_one_line(item.member("note").text());

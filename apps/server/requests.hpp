@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "apps/server/project.hpp"
-#include "apps/server/review.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/edit/edit.hpp"
 #include "mansard/model/plan.hpp"
 #include "mansard/refine/kinds.hpp"
+#include "mansard/report/review.hpp"
 
 namespace mansard::server {
 
@@ -41,8 +41,8 @@ struct SectionRequest {
 };
 struct ReviewRequest {
   std::string building;
-  std::uint64_t revision = 0;       ///< of the building that was looked at
-  std::optional<Verdict> decision;  ///< none: the decision is taken back
+  std::uint64_t revision = 0;               ///< of the building that was looked at
+  std::optional<report::Verdict> decision;  ///< none: the decision is taken back
   std::string note;
 };
 struct PartName {

@@ -115,6 +115,11 @@ auto table() -> std::vector<Route> {
        [](auto& w, const auto& call) { return w.layers(run_of(call)); }},
       {"GET", "/api/runs/{run}/attributes", nothing, gives,
        [](auto& w, const auto& call) { return w.attributes(run_of(call), maybe(call, "building")); }},
+      {"GET", "/api/runs/{run}/column", nothing, gives,
+       [](auto& w, const auto& call) -> Text {
+         const auto attribute = parameter(call, "attribute");
+         return attribute ? w.column(run_of(call), *attribute) : Text(attribute.error());
+       }},
       {"GET", "/api/runs/{run}/levels/{lod}", nothing, gives,
        [](auto& w, const auto& call) { return w.level(run_of(call), call.captured.at("lod")); }},
       {"GET", "/api/runs/{run}/terrain", nothing, bytes,

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 auto Workspace::open(Project project, fs::path sample) -> base::Result<std::unique_ptr<Workspace>> {
   auto runs = project.runs();
   if (!runs) return runs.error();
-  auto decisions = read_review(project.folder());
+  auto decisions = report::read_review(project.folder());
   if (!decisions) return decisions.failure();
   remove_work_folders(project.folder() / "exports");
   std::unique_ptr<Workspace> workspace(new Workspace(std::move(project), std::move(sample)));
@@ -26,7 +26,7 @@ auto Workspace::open(Project project, fs::path sample) -> base::Result<std::uniq
     known.record = std::move(run);
     known.edits = edits;
   }
-  workspace->decisions_ = std::make_shared<const Decisions>(std::move(*decisions));
+  workspace->decisions_ = std::make_shared<const report::Decisions>(std::move(*decisions));
   workspace->open_kept_view();
   if (workspace->project_.inputs())
     (void)workspace->start_reading(*workspace->project_.inputs(), workspace->runs_.empty());

@@ -104,6 +104,7 @@ class Workspace {
   [[nodiscard]] auto undo(const std::string& run, const std::string& client) -> Text;
   [[nodiscard]] auto redo(const std::string& run, const std::string& client) -> Text;
 
+  [[nodiscard]] auto column(const std::string& run, const std::string& attribute) -> Text;
   /// The attributes of all buildings and parts as they are now, or of one building, with units and meanings.
   [[nodiscard]] auto attributes(const std::string& run, const std::optional<std::string>& building) -> Text;
   /// The buildings at a lower level of detail: "1.2", "1.3" or "2.0".
@@ -178,11 +179,13 @@ class Workspace {
       -> std::string;
 
   // Decisions. `reviewed`: the city with those that hold as attributes.
-  [[nodiscard]] auto decisions() const -> std::shared_ptr<const Decisions>;
+  [[nodiscard]] auto decisions() const -> std::shared_ptr<const report::Decisions>;
+  /// Those that hold, as attributes by building.
+  [[nodiscard]] auto decided(const Models& models) const -> std::map<std::string, model::Attributes, std::less<>>;
   [[nodiscard]] auto reviewed(std::shared_ptr<const model::City> city, const Models& models) const
       -> std::shared_ptr<const model::City>;
   /// With review_mutex_ held.
-  [[nodiscard]] auto keep_decisions(Decisions now, const std::string& client) -> base::Result<void>;
+  [[nodiscard]] auto keep_decisions(report::Decisions now, const std::string& client) -> base::Result<void>;
 
   [[nodiscard]] auto files_json(const std::vector<KnownFile>& files) const -> Json;
   [[nodiscard]] auto project_json() const -> Json;
@@ -203,7 +206,8 @@ class Workspace {
   mutable ChangedFiles changed_files_;
   std::string reviewer_;     ///< set before anything is asked
   std::mutex review_mutex_;  // of those who change the decisions
-  std::shared_ptr<const Decisions> decisions_ = std::make_shared<const Decisions>();  // guarded by mutex_
+  std::shared_ptr<const report::Decisions> decisions_ =
+      std::make_shared<const report::Decisions>();  // guarded by mutex_
   std::mutex exports_mutex_;
   std::atomic<std::uint64_t> next_work_ = 1;
   Events events_;

@@ -29,14 +29,22 @@ auto Workspace::tile_of_models(const std::string& run, const std::string& name) 
   return (*open)->tile(*column, *row);
 }
 
-auto Workspace::search(const std::string& run, const std::string& words) -> Text {
-  const auto open = models(run);
-  if (!open) return open.error();
+auto Workspace::decided(const Models& models) const -> std::map<std::string, model::Attributes, std::less<>> {
   std::map<std::string, model::Attributes, std::less<>> more;
   for (const auto& [building, decision] : *decisions())
-    if (const auto model_now = (*open)->model_now(building); model_now && model_now->model == decision.model)
-      more.emplace(building, attributes_of(decision));
-  return (*open)->search(words, more);
+    if (const auto model_now = models.model_now(building); model_now && model_now->model == decision.model)
+      more.emplace(building, report::attributes_of(decision));
+  return more;
+}
+
+auto Workspace::search(const std::string& run, const std::string& words) -> Text {
+  const auto open = models(run);
+  return open ? Text((*open)->search(words, decided(**open))) : Text(open.error());
+}
+
+auto Workspace::column(const std::string& run, const std::string& attribute) -> Text {
+  const auto open = models(run);
+  return open ? (*open)->column(attribute, decided(**open)) : Text(open.error());
 }
 
 auto Workspace::section(const std::string& run, const PartName& part, std::size_t ring, std::size_t edge, double share)

@@ -8,7 +8,7 @@
 namespace mansard::server {
 namespace {
 
-auto json_of(const Decision& one) -> Json {
+auto json_of(const report::Decision& one) -> Json {
   return {{"building", one.building},
           {"decision", to_string(one.verdict)},
           {"note", one.note},
@@ -17,7 +17,7 @@ auto json_of(const Decision& one) -> Json {
 }
 
 /// ReviewDecision.
-auto json_of(const Decision& one, const Models::ModelNow& model_now) -> Json {
+auto json_of(const report::Decision& one, const Models::ModelNow& model_now) -> Json {
   auto out = json_of(one);
   out["lapsed"] = one.model != model_now.model;
   return out;
@@ -25,22 +25,23 @@ auto json_of(const Decision& one, const Models::ModelNow& model_now) -> Json {
 
 }  // namespace
 
-auto Workspace::decisions() const -> std::shared_ptr<const Decisions> {
+auto Workspace::decisions() const -> std::shared_ptr<const report::Decisions> {
   const std::scoped_lock lock(mutex_);
   return decisions_;
 }
 
-auto Workspace::keep_decisions(Decisions now, const std::string& client) -> base::Result<void> {
-  if (auto written = write_durably(project_.folder() / review_file, review_text(now)); !written) return written;
+auto Workspace::keep_decisions(report::Decisions now, const std::string& client) -> base::Result<void> {
+  if (auto written = write_durably(project_.folder() / report::review_file, report::review_text(now)); !written)
+    return written;
   {
     const std::scoped_lock lock(mutex_);
-    decisions_ = std::make_shared<const Decisions>(std::move(now));
+    decisions_ = std::make_shared<const report::Decisions>(std::move(now));
   }
   events_.send(text_of({{"type", "review"}, {"client", client}}));
   return {};
 }
 
-auto Workspace::review_of_project() const -> Text { return review_text(*decisions()); }
+auto Workspace::review_of_project() const -> Text { return report::review_text(*decisions()); }
 
 auto Workspace::review(const std::string& run) -> Text {
   const auto open = models(run);
@@ -79,10 +80,10 @@ auto Workspace::decide(const std::string& run, const ReviewRequest& request, con
 }
 
 auto Workspace::merge_review(const std::string& text, const std::string& client) -> Text {
-  const auto others = parse_review(text, "the file to merge");
+  const auto others = report::parse_review(text, "the file to merge");
   if (!others) return others.error();
   const std::scoped_lock only_one(review_mutex_);
-  auto both = merged(*decisions(), *others);
+  auto both = report::merged(*decisions(), *others);
   if (both.added + both.replaced > 0)
     if (auto kept = keep_decisions(std::move(both.decisions), client); !kept) return kept.error();
   Json conflicts = Json::array();
@@ -97,9 +98,9 @@ auto Workspace::reviewed(std::shared_ptr<const model::City> city, const Models& 
     -> std::shared_ptr<const model::City> {
   const auto all = decisions();
   std::shared_ptr<model::City> copy;  // made when something is to be changed
-  const auto set = [&](std::size_t b, const Decision* decision) {
+  const auto set = [&](std::size_t b, const report::Decision* decision) {
     if (!copy) copy = std::make_shared<model::City>(*city);
-    set_review(copy->buildings[b].attributes, decision);
+    report::set_review(copy->buildings[b].attributes, decision);
   };
   for (std::size_t b = 0; b < city->buildings.size(); ++b) {
     const auto& building = city->buildings[b];
@@ -107,7 +108,7 @@ auto Workspace::reviewed(std::shared_ptr<const model::City> city, const Models& 
     if (own != all->end()) {
       const auto model_now = models.model_now(building.id);
       set(b, model_now && model_now->model == own->second.model ? &own->second : nullptr);
-    } else if (has_review(building.attributes)) {
+    } else if (report::has_review(building.attributes)) {
       if (const auto model_now = models.model_now(building.id); model_now && model_now->changed) set(b, nullptr);
     }
   }

@@ -77,7 +77,8 @@ class History {
  private:
   struct State {
     std::uint64_t revision = 0;
-    std::vector<NamedPlan> first, parts;
+    std::vector<NamedPlan> parts;
+    std::optional<std::vector<NamedPlan>> first{};  ///< since the first change: most buildings never have one
     friend auto operator==(const State&, const State&) -> bool = default;
   };
   /// Puts plans in place of a building's own, which come back.

@@ -27,7 +27,6 @@ History::History(const model::City& city) {
     auto& state = buildings_[building.id];
     state = {};
     for (const auto& part : building.parts) state.parts.push_back({part.id, part.plan});
-    state.first = state.parts;
   }
 }
 
@@ -43,7 +42,7 @@ auto History::revision(std::string_view building) const -> std::uint64_t {
 
 auto History::edited(std::string_view building) const -> bool {
   const auto found = buildings_.find(building);
-  return found != buildings_.end() && found->second.parts != found->second.first;
+  return found != buildings_.end() && found->second.first && found->second.parts != *found->second.first;
 }
 
 auto History::edits() const -> const std::vector<Edit>& { return edits_; }
@@ -53,6 +52,7 @@ auto History::done() const -> std::size_t { return done_; }
 auto History::replace(const std::string& building, std::vector<NamedPlan> parts) -> std::vector<NamedPlan> {
   State& state = buildings_.find(building)->second;
   ++state.revision;
+  if (!state.first) state.first = state.parts;
   return std::exchange(state.parts, std::move(parts));
 }
 

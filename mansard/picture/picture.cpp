@@ -9,6 +9,20 @@
 namespace mansard::picture {
 namespace {
 
+constexpr std::size_t gap = 24;  // pixels, between images
+
+/// The corners of the frame by a camera's directions; as near to the eye as all that is drawn.
+auto shown_of(const geometry::Box3& frame, const detail::Camera& camera, const geometry::Box3& drawn)
+    -> geometry::Box3 {
+  if (drawn.empty()) return drawn;
+  geometry::Box3 box;
+  for (const double x : {frame.least.x, frame.most.x})
+    for (const double y : {frame.least.y, frame.most.y})
+      for (const double z : {frame.least.z, frame.most.z}) box.add(detail::along(camera, {x, y, z}));
+  box.most.z = std::max(box.most.z, drawn.most.z);
+  return box;
+}
+
 auto views_of(detail::Scenery scenery, std::span<const Lines> lines, std::span<const View> views, const base::Run& run)
     -> base::Result<std::vector<Image>> {
   std::vector<detail::Camera> directions;
@@ -22,6 +36,7 @@ auto views_of(detail::Scenery scenery, std::span<const Lines> lines, std::span<c
     for (const Lines& layer : lines)
       for (const auto& segment : layer.segments)
         for (const auto& end : segment) box.add(detail::along(directions[v], end));
+    if (view.frame) box = shown_of(*view.frame, directions[v], box);
     if (!box.empty())
       if (auto drawn = detail::render(images.back(), scenery, lines, detail::camera_for(view, box), run); !drawn)
         return drawn.failure();
@@ -53,7 +68,6 @@ auto error_map(std::span<const float> values, std::size_t columns, std::size_t r
 }
 
 auto beside(std::span<const Image> images) -> Image {
-  constexpr std::size_t gap = 24;  // pixels
   Image out;
   for (const Image& image : images) {
     out.width += image.width + (&image == &images.front() ? 0 : gap);
@@ -66,6 +80,23 @@ auto beside(std::span<const Image> images) -> Image {
       std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * y * image.width), 3 * image.width,
                   out.pixels.begin() + static_cast<std::ptrdiff_t>(3 * (y * out.width + left)));
     left += image.width + gap;
+  }
+  return out;
+}
+
+auto below(std::span<const Image> images) -> Image {
+  Image out;
+  for (const Image& image : images) {
+    out.height += image.height + (&image == &images.front() ? 0 : gap);
+    out.width = std::max(out.width, image.width);
+  }
+  out.pixels.assign(3 * out.width * out.height, 255);
+  std::size_t top = 0;
+  for (const Image& image : images) {
+    for (std::size_t y = 0; y < image.height; ++y)
+      std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * y * image.width), 3 * image.width,
+                  out.pixels.begin() + static_cast<std::ptrdiff_t>(3 * (top + y) * out.width));
+    top += image.height + gap;
   }
   return out;
 }

@@ -43,6 +43,7 @@ struct View {
   double azimuth = 0.6;                     ///< rad; where the camera stands, clockwise from south
   double elevation = 0.7;                   ///< rad above the horizon
   std::size_t width = 1600, height = 1200;  ///< pixels
+  std::optional<geometry::Box3> frame{};    ///< m; what is shown, so that pictures compare; none: all that is drawn
 };
 
 /// An image, row by row from the top, 3 bytes a pixel.
@@ -51,7 +52,7 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 };
 
-/// Shaded by a sun and an open sky, supersampled, framed to what is drawn. Same input, same bytes.
+/// Shaded by a sun and an open sky, supersampled. Same input, same bytes.
 [[nodiscard]] auto draw(std::span<const Layer> layers, std::span<const Lines> lines, const View& view,
                         const base::Run& run = {}) -> Image;
 /// The same scene from several sides, which costs less than one by one.
@@ -74,8 +75,9 @@ struct Pieces {
 [[nodiscard]] auto error_map(std::span<const float> values, std::size_t columns, std::size_t rows, double limit,
                              const std::string& title) -> Image;
 
-/// Images side by side on white.
+/// Images side by side on white, or one below the other.
 [[nodiscard]] auto beside(std::span<const Image> images) -> Image;
+[[nodiscard]] auto below(std::span<const Image> images) -> Image;
 
 [[nodiscard]] auto png(const Image& image) -> base::Result<std::string>;
 

@@ -488,6 +488,16 @@ auto codes() -> std::vector<base::Code> {
        "Give --since a folder of 'mansard reconstruct', or a file that it wrote.", 3},
       {"report-run", "The run.json in a folder of results cannot be read.",
        "Run 'mansard reconstruct' again, or give the models themselves instead of the folder.", 3},
+      {"report-models", "A folder of results has no models of which a report can be made.",
+       "Give the output folder of a run whose --formats have cityjson, geopackage, plans, glb or obj.", 3},
+      {"report-changes", "What has changed cannot be read: the file is not the report of 'mansard compare'.",
+       "Give changes.json, or the folder that 'mansard compare' wrote.", 3},
+      {"report-scan", "The scan of a run cannot be used any more, so the pictures of its report show the models alone.",
+       "Put the files back where the run found them, or name them with --scan.", 0},
+      {"review-file", "The decisions of a review cannot be read: the file is damaged, or of another kind.",
+       "Give review.json of a project, or the folder of the project. Restore a damaged file from a backup, or move it "
+       "away: without the file, no building is decided.",
+       3},
       {"pipeline-block-unknown", "A run of some blocks names an unknown block.",
        "Take a name from the report of a whole run, or of 'mansard segment'.", 4},
   });

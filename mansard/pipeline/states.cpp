@@ -11,11 +11,10 @@
 #include "mansard/evaluate/truth.hpp"
 #include "mansard/formats/drivers.hpp"
 #include "mansard/formats/foreign.hpp"
-#include "mansard/formats/results.hpp"
 #include "mansard/ingest/model.hpp"
 #include "mansard/model/move.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
-#include "mansard/pipeline/inputs.hpp"
+#include "mansard/pipeline/detail/run_files.hpp"
 #include "mansard/pipeline/stored.hpp"
 #include "mansard/report/read_run.hpp"
 
@@ -24,17 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using geometry::Point3;
-
-/// The first of these that a folder of results has: those that come with solids before those that are extruded again.
-auto models_in(const fs::path& folder) -> fs::path {
-  using enum formats::Format;
-  std::error_code missing;
-  for (const auto format : {cityjson, cityjsonseq, geopackage, plans, glb, obj, flatgeobuf}) {
-    auto path = folder / formats::name_in_folder(format);
-    if (fs::exists(path, missing)) return path;
-  }
-  return {};
-}
 
 // ---- buildings
 
@@ -173,35 +161,6 @@ auto read_state_models(const StateOptions& wanted, const Options& options, const
 
 // ---- the scan
 
-/// Where a file of a run is now: as it was named, or beside the run; empty where it is gone or another one.
-auto place_of(const model::InputFile& input, const fs::path& folder) -> fs::path {
-  std::error_code status;
-  for (const auto& path : {fs::path(input.path), folder / input.path, folder.parent_path() / input.path})
-    if (fs::is_regular_file(path, status) && fs::file_size(path, status) == input.bytes) return path;
-  return {};
-}
-
-/// The scan of a run, where all of it is there as it was.
-auto scan_of(const report::EarlierRun& earlier, const fs::path& folder, const Options& options, StateFiles& out)
-    -> std::vector<fs::path> {
-  std::vector<fs::path> found;
-  for (const auto& input : earlier.inputs) {
-    if (!is_mesh_name(input.path) || is_footprints_name(input.path) || input.path == options.ingest.terrain) continue;
-    auto path = place_of(input, folder);
-    if (path.empty()) {
-      out.warnings.push_back(base::warning("compare-scan-gone",
-                                           "the scan of this run is not there any more, or is another one (" +
-                                               input.path + "): models alone are compared; name the scan to use it",
-                                           out.path.string()));
-      return {};
-    }
-    // A tileset is read by its first file.
-    if (path.filename() == "tileset.json") return {path};
-    found.push_back(std::move(path));
-  }
-  return found;
-}
-
 auto read_state_scan(const std::vector<fs::path>& paths, const Options& options, const base::Run& run, StateFiles& out)
     -> base::Result<void> {
   if (paths.empty()) return {};
@@ -223,7 +182,7 @@ auto read_state(const fs::path& path, const StateOptions& wanted, const Options&
   std::error_code status;
   std::vector<fs::path> scans = wanted.scans;
   if (fs::is_directory(path, status) && fs::exists(path / "run.json", status)) {
-    out.models = models_in(path);
+    out.models = detail::models_in(path);
     if (out.models.empty())
       return base::error("compare-state",
                          "there are no models in this folder that can be read; add cityjson or plans to --formats of "
@@ -235,11 +194,17 @@ auto read_state(const fs::path& path, const StateOptions& wanted, const Options&
     if (!earlier) return earlier.failure();
     out.measured = earlier->accuracy.has_value();
     if (out.measured) out.state.accuracy = *earlier->accuracy;
-    // The scan is read as the run read it.
-    auto lists = option_lists(used);
-    for (const auto& [name, value] : earlier->options)
-      if (name.starts_with("ingest.") || name.starts_with("cloud.")) (void)set_option(lists, name, value);
-    if (scans.empty() && wanted.use_scans) scans = scan_of(*earlier, path, used, out);
+    detail::take_reading(*earlier, used);
+    if (scans.empty() && wanted.use_scans) {
+      auto found = detail::scan_of(*earlier, path, used);
+      if (!found.missing.empty())
+        out.warnings.push_back(base::warning("compare-scan-gone",
+                                             "the scan of this run is not there any more, or is another one (" +
+                                                 found.missing +
+                                                 "): models alone are compared; name the scan to use it",
+                                             path.string()));
+      scans = std::move(found.files);
+    }
   }
   if (auto read = read_state_models(wanted, options, run, out); !read) return read.failure();
   if (out.state.buildings.empty())

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mansard/base/text.hpp"
+#include "mansard/base/utf8.hpp"
 #include "mansard/report/attributes.hpp"
 
 namespace mansard::report {
@@ -279,19 +280,6 @@ auto changes_summary(const Changes& changes) -> std::string {
 
 namespace {
 
-auto escaped(const std::string& text) -> std::string {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else if (static_cast<unsigned char>(c) < 0x20) out += ' ';
-    else out += c;
-  }
-  return out;
-}
-
 constexpr double map_width = 1200, legend = 200, border = 20, least_height = 260;  // px
 
 struct Map {
@@ -345,7 +333,7 @@ auto changes_svg(const Changes& changes) -> std::string {
       for (const auto& why : change.why) title += "\n" + why;
       out += "<path d=\"" + map.path(outline_of(changes, change)) + "\" fill=\"" + colour_of(change.kind) + "\"" +
              (change.doubtful && !change.parts.empty() ? " stroke-dasharray=\"4 3\"" : "") + "><title>" +
-             escaped(title) + "</title></path>\n";
+             base::markup_escaped(title) + "</title></path>\n";
     }
   out += "</g>\n<g font-size=\"13\" text-anchor=\"middle\" fill=\"#141418\" pointer-events=\"none\">\n";
   for (const auto& change : changes.found.changes) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "mansard/base/outputs.hpp"
 #include "mansard/base/pack.hpp"
@@ -11,6 +12,7 @@
 #include "mansard/geometry/box_index.hpp"
 #include "mansard/geometry/curve.hpp"
 #include "mansard/rays/rays.hpp"
+#include "mansard/report/measures.hpp"
 #include "mansard/report/pictures.hpp"
 #include "mansard/solid/solid.hpp"
 #include "mansard/texture/options.hpp"
@@ -327,6 +329,22 @@ class Store {
 
 using Images = base::Result<std::vector<picture::Image>>;
 
+/// A quieter blue than that of the scan.
+constexpr picture::Colour street_blue{206, 216, 232};
+
+/// rad; where a camera stands that looks at the longest edge of an outline: clockwise from south.
+auto long_side_of(const std::vector<geometry::Polygon>& polygons) -> double {
+  double longest = 0, azimuth = 0;
+  for (const auto& polygon : polygons)
+    for (std::size_t i = 0; i < polygon.outer.size(); ++i) {
+      const Point2 along = polygon.outer[(i + 1) % polygon.outer.size()] - polygon.outer[i];
+      if (geometry::length(along) <= longest) continue;
+      longest = geometry::length(along);
+      azimuth = std::atan2(-along.y, along.x);  // its outside is on the right
+    }
+  return azimuth;
+}
+
 /// The scan in `frame` with the footprints on it.
 auto scan_images(const Drawn& drawn, const geometry::Box2& frame, std::span<const picture::View> views,
                  const base::Run& run) -> Images {
@@ -358,7 +376,7 @@ auto model_images(const Drawn& drawn, const geometry::Box2& frame, std::span<con
   for (std::size_t i = 0; i < drawn.scan.count && !run.cancelled(); ++i) {
     const auto mesh = drawn.scan.load(i);
     if (!mesh) return mesh.failure();
-    (*store)->add({part_of(**mesh, frame, is_street), {{206, 216, 232}}, {}});
+    (*store)->add({part_of(**mesh, frame, is_street), {street_blue}, {}});
   }
   auto visited = drawn.each_building([&](const model::Building& building) -> base::Result<void> {
     picture::Layer layer;
@@ -437,6 +455,63 @@ auto textured_scan(const texture::Scan& scan, const model::Scene& scene) -> base
         triangle.material == texture::no_material ? std::array<formats::Wrap, 2>{} : scan.wrap(triangle.material));
   };
   return layer;
+}
+
+auto close_up(const CloseUp& shown, std::size_t panel_width, std::size_t panel_height, const base::Run& run)
+    -> std::optional<picture::Image> {
+  picture::Layer models;
+  for (const auto* one : solids_of(shown.building)) append(*one, models, [](std::uint32_t) {});
+  model::Scene scene;
+  scene.footprints.emplace_back();
+  scene.footprints.front().polygons = shown.building.footprint;
+  geometry::Box2 plan = geometry::bounds(shown.building.footprint);
+  geometry::Box3 frame = geometry::Box3::of(models.mesh.vertices);
+  if (!frame.empty()) plan.include(frame.plan());
+  if (plan.empty()) return std::nullopt;
+  plan = plan.grown(close_up_margin);
+  picture::Layer scan;
+  std::vector<picture::Layer> models_in_street;
+  std::vector<picture::Lines> outline;
+  if (shown.scan != nullptr) {
+    const auto everything = [](const Point3&, const Point3&, const Point3&) { return true; };
+    scan = {part_of(*shown.scan, plan, everything), {picture::mesh_blue}, {}};
+    if (frame.empty()) frame = geometry::Box3::of(scan.mesh.vertices);
+  }
+  if (frame.empty()) return std::nullopt;
+  const bool scanned = !scan.mesh.triangles.empty();
+  if (scanned) {
+    FootprintLines lines(scene);
+    lines.look_at(scan.mesh);
+    outline.push_back(lines.lines());
+    const Grounds grounds(scene);
+    models_in_street.push_back(
+        {part_of(scan.mesh, plan,
+                 [&](const Point3& a, const Point3& b, const Point3& c) { return grounds.is_street(a, b, c); }),
+         {street_blue},
+         {}});
+  }
+  picture::View front;
+  front.width = panel_width;
+  front.height = panel_height;
+  front.frame = {{plan.least.x, plan.least.y, frame.least.z}, {plan.most.x, plan.most.y, frame.most.z + 1}};
+  front.azimuth = long_side_of(shown.building.footprint) + 0.5;
+  auto back = front;
+  back.azimuth += std::numbers::pi;
+  const std::array views{front, back};
+  std::vector<std::vector<picture::Image>> columns;
+  if (scanned) columns.push_back(picture::draw_views({&scan, 1}, outline, views, run));
+  if (!models.mesh.triangles.empty()) {
+    models_in_street.push_back(std::move(models));
+    columns.push_back(picture::draw_views(models_in_street, {}, views, run));
+  }
+  if (columns.empty()) return std::nullopt;
+  std::vector<picture::Image> rows;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    std::vector<picture::Image> row;
+    for (const auto& column : columns) row.push_back(column[v]);
+    rows.push_back(picture::beside(row));
+  }
+  return picture::below(rows);
 }
 
 auto picture_of(const model::City& city, const picture::View& view, const base::Run& run) -> picture::Image {

@@ -60,6 +60,17 @@ struct Drawn {
 /// The scan near the buildings; its images are in memory for as long as the layer is. Fails as texture::Scan::near.
 [[nodiscard]] auto textured_scan(const texture::Scan& scan, const model::Scene& scene) -> base::Result<picture::Layer>;
 
+/// A building close by, from two sides: on the left the scan with the footprint, on the right the model in its street.
+/// Without a scan the model alone, or where it has none, the scan. The side of the first row is that of its longest
+/// wall. Fails as picture::draw_views does; nothing where there is neither.
+struct CloseUp {
+  const model::Building& building;       ///< with its models, in a frame
+  const geometry::Mesh* scan = nullptr;  ///< around it, in that frame; null: none
+};
+inline constexpr double close_up_margin = 4;  ///< m; of the scan around a building
+[[nodiscard]] auto close_up(const CloseUp& shown, std::size_t panel_width, std::size_t panel_height,
+                            const base::Run& run = {}) -> std::optional<picture::Image>;
+
 /// The models alone.
 [[nodiscard]] auto picture_of(const model::City& city, const picture::View& view = {}, const base::Run& run = {})
     -> picture::Image;

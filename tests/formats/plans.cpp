@@ -70,6 +70,41 @@ TEST_F(Plans, are_the_same_text_after_a_round_trip) {
   EXPECT_EQ(mansard::formats::plans(*read(text)), text);
 }
 
+/// So many buildings of 32 kB each: more than 512 are a large file, which is read building by building.
+auto many(std::size_t count, std::size_t twice = 0) -> std::string {
+  auto json = Json::parse(mansard::formats::plans(street()));
+  const auto house = json["buildings"][0];
+  json["buildings"] = Json::array();
+  for (std::size_t i = 0; i < count; ++i) {
+    auto one = house;
+    one["id"] = "h" + std::to_string(twice > 0 && i == twice ? 0 : i);
+    one["attributes"]["note"] = std::string(32'000, '"');  // which is escaped, and doubled
+    json["buildings"].push_back(std::move(one));
+  }
+  return json.dump();
+}
+
+TEST_F(Plans, of_a_large_file_are_those_of_a_small_one) {
+  const auto large = read(many(600)), small = read(many(3));
+  ASSERT_TRUE(large) << to_string(large.error());
+  ASSERT_TRUE(small);
+  auto first = *large;
+  ASSERT_EQ(first.buildings.size(), 600U);
+  EXPECT_EQ(first.buildings.back().id, "h599");
+  first.buildings.resize(3);
+  expect_same(first, *small);
+}
+
+TEST_F(Plans, of_a_large_file_complain_in_the_same_words) {
+  EXPECT_THAT(read(many(600, 7)).error().message, HasSubstr("buildings[7].id"));
+  EXPECT_EQ(read(many(600, 7)).error().message, read(many(9, 7)).error().message);
+  auto cut = many(600);
+  cut.resize(cut.size() - 1);
+  const auto why = read(cut).error();
+  EXPECT_EQ(why.code, "write-plan-json");
+  EXPECT_THAT(why.message, HasSubstr("byte " + std::to_string(cut.size() + 1)));
+}
+
 TEST_F(Plans, come_back_to_the_bit_whatever_the_numbers) {
   mansard::base::Random random(11);
   const auto wild = [&] {  // any magnitude near the origin, most digits

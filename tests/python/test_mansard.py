@@ -231,6 +231,14 @@ class Others(WithFolder):
         self.assertEqual(by_path.error.ndim, 2)
         self.assertLess(by_path.extent[0], by_path.extent[1])
 
+    def test_report_gives_the_page_of_the_command_line(self):
+        run("reconstruct", MESH, FOOTPRINTS, "-o", self.folder / "run", "-q")
+        run("report", self.folder / "run", "--worst", "1", "--date", "today", "-q")
+        page = mansard.report(self.folder / "run", worst=1, date="today")
+        self.assertEqual(page, (self.folder / "run" / "report.html").read_text())
+        with self.assertRaisesRegex(mansard.Error, "run.json"):
+            mansard.report(self.folder)
+
     def test_compare_gives_the_report_of_the_command_line(self):
         city = mansard.reconstruct(MESH, FOOTPRINTS)
         city.write(self.folder / "old.city.json")

@@ -173,6 +173,9 @@ await call("get", "/api/runs/{run}/tiles/{tile}", { at: { ...of, tile: "0_0" } }
 await call("get", "/api/runs/{run}/tiles/{tile}", { at: { ...of, tile: "0" }, expect: 400 });
 await call("get", "/api/runs/{run}/search", { at: of, query: { words: buildings[0].id } });
 await call("get", "/api/runs/{run}/search", { at: of, expect: 400 });
+await call("get", "/api/runs/{run}/column", { at: of, query: { attribute: "ms_h_ground" } });
+await call("get", "/api/runs/{run}/column", { at: of, query: { attribute: "none" }, expect: 404 });
+await call("get", "/api/runs/{run}/column", { at: of, expect: 400 });
 await call("get", "/api/runs/{run}/layers", { at: of });
 await call("get", "/api/runs/{run}/scores", { at: of });
 await call("get", "/api/runs/{run}/attributes", { at: of });

@@ -29,7 +29,7 @@ __all__ = [
     "Building", "City", "Diagnostic", "Error", "Evaluation", "Labels", "Part", "Plan", "ExtrudedBuilding", "Scan",
     "Segmentation", "Simulation", "Solid", "FACE_CLASSES", "SCAN_CLASSES", "compare", "convert", "evaluate", "explain",
     "extrude", "formats", "label", "limit_threads", "options", "presets", "extrude_plan", "read_city", "read_scan",
-    "reconstruct", "segment", "simulate",
+    "reconstruct", "report", "segment", "simulate",
 ]
 
 #: Names of the numbers in :attr:`Solid.classes`.
@@ -181,6 +181,13 @@ def evaluate(model, mesh, *, truth=None, footprints=None, lod="", preset="", pro
             return Evaluation(*_core.evaluate(model_path, meshes, truth_path, outlines, *arguments))
 
 
+def _paths(one_or_several):
+    if one_or_several is None:
+        return []
+    many = isinstance(one_or_several, (list, tuple))
+    return [_os.fspath(path) for path in (one_or_several if many else [one_or_several])]
+
+
 def compare(old, new, *, old_scan=None, new_scan=None, scans=True, progress=None, **options):
     """Tells what has changed between two states of a city.
 
@@ -192,12 +199,27 @@ def compare(old, new, *, old_scan=None, new_scan=None, scans=True, progress=None
     Returns:
         A dictionary: what ``mansard compare --json`` prints.
     """
-    def paths(scan):
-        many = isinstance(scan, (list, tuple))
-        return [] if scan is None else [_os.fspath(path) for path in (scan if many else [scan])]
-
-    return _json.loads(_core.compare((_os.fspath(old), paths(old_scan)), (_os.fspath(new), paths(new_scan)), scans,
+    return _json.loads(_core.compare((_os.fspath(old), _paths(old_scan)), (_os.fspath(new), _paths(new_scan)), scans,
                                      _settings(options), progress))
+
+
+def report(run, *, scan=None, scans=True, review=None, changes=None, worst=10, title="", date="", progress=None):
+    """Writes a page about a run for those who ordered it, to read and to print.
+
+    Args:
+        run: an output folder of ``mansard reconstruct``, or the folder of a project's run.
+        scan: the scan that the models were made from, a path or several; without it that of the run.
+        scans: False draws the models without the scan.
+        review: decisions of people: ``review.json`` of projects or their folders, a path or several.
+        changes: ``changes.json`` of ``mansard compare``, or the folder that it wrote.
+        worst: the number of models with a picture, those that are least sure first.
+        title, date: of the page.
+
+    Returns:
+        The page: HTML that needs no other file.
+    """
+    return _core.report(_os.fspath(run), _paths(scan), scans, _paths(review), "" if changes is None else
+                        _os.fspath(changes), worst, title, date, progress)
 
 
 def label(mesh, model, *, lod="", progress=None, **options):

@@ -53,6 +53,7 @@ const open = (...all: api.Building[]) =>
 
 describe("a large run", () => {
   const list: api.BuildingList = {
+    attributes: [],
     tile_size: 200,
     ids: ["a", "b", "c"],
     blocks: ["", "", ""],
@@ -99,6 +100,23 @@ describe("a large run", () => {
     await vi.waitFor(() => expect(state.run.value!.large!.loaded.size).toBe(2));
     expect(asked).toEqual(["1_0", "0_0"]);
     expect(state.selection.value!.part).toBe(building("c").parts[0]!.id);
+  });
+
+  it("has attributes as columns of all buildings, asked for once and again after an edit", async () => {
+    await actions.openRun("run-1");
+    const columns: string[] = [];
+    answers["GET /api/runs/run-1/column?attribute=year"] = () => {
+      columns.push("asked");
+      return { attribute: { name: "year", source: true, unit: "", meaning: "" }, values: [1900, 1950, null] };
+    };
+    await Promise.all([actions.needColumn("run-1", "year"), actions.needColumn("run-1", "year")]);
+    await actions.needColumn("run-1", "year");
+    expect(columns).toHaveLength(1);
+    expect(state.columns.value.get("run-1 year")?.values).toEqual([1900, 1950, null]);
+    actions.forgetColumns("run-1");
+    expect(state.columns.value.size).toBe(0);
+    await actions.needColumn("run-1", "year");
+    expect(columns).toHaveLength(2);
   });
 
   it("follows edits in its list, also of buildings that are not loaded", async () => {

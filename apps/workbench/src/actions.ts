@@ -396,6 +396,21 @@ export async function needAttributes(run: string) {
   });
 }
 
+/** Fetches one attribute of all buildings of a large run. */
+export async function needColumn(run: string, name: string) {
+  const key = `${run} ${name}`;
+  if (state.columns.value.has(key) || requested.has(`column ${key}`)) return;
+  requested.add(`column ${key}`);
+  const edit = editNumber(run);
+  const column = await attempt(client.column(run, name));
+  requested.delete(`column ${key}`);
+  if (column && edit === editNumber(run)) state.columns.value = new Map(state.columns.value).set(key, column);
+}
+/** What the page has of them is older than the server's. */
+export function forgetColumns(run: string) {
+  state.columns.value = new Map([...state.columns.value].filter(([key]) => !key.startsWith(`${run} `)));
+}
+
 /** Fetches the solids of a lower level of detail. Those of edited runs are fetched again after an edit. */
 export async function needLevel(run: string, lod: string) {
   const key = `${run} ${lod}`;
@@ -457,6 +472,7 @@ function measureAgain(run: string) {
     scores.delete(run);
     state.scoresNow.value = scores;
     if (state.attributes.value.has(run)) state.outdatedAttributes.value = new Set(state.outdatedAttributes.value).add(run);
+    forgetColumns(run);
     state.levels.value = new Map([...state.levels.value].filter(([key]) => !key.startsWith(`${run} `)));
     state.terrains.value = new Map([...state.terrains.value].filter(([id]) => id !== run));
     if (state.errorMaps.value.has(run)) state.outdatedMaps.value = new Set(state.outdatedMaps.value).add(run);

@@ -13,6 +13,7 @@ const list = (...places: [number, number][]): BuildingList => ({
   errors: places.map((_, i) => (i ? 0.25 : null)),
   confidences: places.map((_, i) => (i ? 0.97 : null)),
   edited: places.map(() => false),
+  attributes: [],
   shapes: places.map(([x, y]) => square(x, y)),
   reasons: { b1: [{ severity: "warning", code: "c", message: "too small", subject: "b1" }] },
   history: { edits: [], done: 0 },

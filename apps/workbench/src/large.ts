@@ -1,5 +1,5 @@
 // Large runs: every building is listed at once, without its models. Those of the tiles near the camera are loaded.
-import type { BuildingList, Diagnostic } from "./api/types";
+import type { AttributeMeaning, BuildingList, Diagnostic } from "./api/types";
 import { said } from "./panels/words";
 import type { Row } from "./panels/table";
 
@@ -28,6 +28,7 @@ export interface Large {
   tileOf: readonly string[];
   tiles: ReadonlyMap<string, Tile>;
   reasons: ReadonlyMap<string, readonly Diagnostic[]>;
+  attributes: readonly AttributeMeaning[];
   low: Vector;
   high: Vector;
   loaded: ReadonlySet<string>; // tiles
@@ -91,6 +92,7 @@ export function largeOf(list: BuildingList): Large {
     tileOf,
     tiles,
     reasons: new Map(Object.entries(list.reasons)),
+    attributes: list.attributes,
     ...all,
     loaded: new Set(),
   };

@@ -69,6 +69,8 @@ export const outdatedMaps = signal<ReadonlySet<string>>(new Set());
 
 /** Attributes of the buildings of the runs; fetched on demand, and again after edits. */
 export const attributes = signal<Map<string, api.AttributeTable>>(new Map());
+/** Single attributes of all buildings of large runs, by "run name"; fetched on demand, and again after edits. */
+export const columns = signal<Map<string, api.AttributeColumn>>(new Map());
 /** Runs whose attributes are older than their last edit. */
 export const outdatedAttributes = signal<ReadonlySet<string>>(new Set());
 /** Solids of the runs at lower levels of detail, by "run lod"; fetched on demand. */

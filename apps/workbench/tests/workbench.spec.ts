@@ -1639,6 +1639,16 @@ test("a run of thousands of buildings is a list at once, and models come near th
   await idle(page);
   await picture(page, "large");
 
+  // Colours are those of all buildings, loaded or not.
+  await page.getByRole("tab", { name: "Layers" }).click();
+  await page.getByLabel("Colour by", { exact: true }).selectOption("street");
+  await expect(page.locator(".legend-style")).toContainText(/Market\s*5178/);
+  await expect(page.locator(".legend-style")).toContainText(/Canal\s*6/);
+  await idle(page);
+  await picture(page, "large-styled");
+  await page.getByLabel("Colour by", { exact: true }).selectOption("");
+  await page.getByRole("tab", { name: "Buildings" }).click();
+
   // The server searches attributes; the table finds ids at once.
   await page.getByLabel("Filter buildings").fill("canal b40");
   await expect(page.getByRole("row", { name: /^b/ })).toHaveText([/^b4017/]);

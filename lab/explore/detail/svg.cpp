@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mansard/base/text.hpp"
+#include "mansard/base/utf8.hpp"
 
 namespace mansard::explore::detail {
 namespace {
@@ -21,18 +22,7 @@ auto path_of(const geometry::Ring& ring) -> std::string {
 
 }  // namespace
 
-auto escape(std::string_view text) -> std::string {
-  std::string out;
-  for (const char c : base::on_one_line(std::string(text))) switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
-      default: out += c;
-    }
-  return out;
-}
+auto escape(std::string_view text) -> std::string { return base::markup_escaped(base::on_one_line(std::string(text))); }
 
 Svg::Svg(double width, double height, std::string_view label) {
   out_ = "<svg viewBox=\"0 0 " + pixels(width) + " " + pixels(height) + "\" width=\"" + pixels(width) +

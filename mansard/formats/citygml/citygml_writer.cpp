@@ -7,6 +7,7 @@
 #include <set>
 
 #include "mansard/base/text.hpp"
+#include "mansard/base/utf8.hpp"
 #include "mansard/formats/atlas/texture_folder.hpp"
 #include "mansard/formats/citygml/xml_text.hpp"
 #include "mansard/formats/citygml_made_by.hpp"
@@ -65,7 +66,7 @@ auto made_by_comment(const model::MadeBy& made_by) -> std::string {
 }
 
 auto attribute(std::string_view name, std::string_view value) -> std::string {
-  return std::string(name) + "=\"" + xml_escaped(value) + "\"";
+  return std::string(name) + "=\"" + base::markup_escaped(value) + "\"";
 }
 
 using Colour = std::array<std::uint8_t, 3>;

@@ -1,20 +1,8 @@
 #include "mansard/formats/citygml/xml_text.hpp"
 
-#include "mansard/formats/gltf/gltf_table.hpp"
+#include "mansard/base/utf8.hpp"
 
 namespace mansard::formats::detail {
-
-auto xml_escaped(std::string_view text) -> std::string {
-  std::string out;
-  for (const char c : as_utf8(std::string(text))) switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r' ? ' ' : c;
-    }
-  return out;
-}
 
 auto xml_id(std::string_view name) -> std::string {
   std::string out;
@@ -51,7 +39,7 @@ auto XmlText::leaf(std::string_view name, std::string_view text, std::string_vie
   text_ += name;
   if (!attributes.empty()) (text_ += ' ') += attributes;
   text_ += '>';
-  text_ += xml_escaped(text);
+  text_ += base::markup_escaped(text);
   text_ += "</";
   text_ += name;
   text_ += ">\n";

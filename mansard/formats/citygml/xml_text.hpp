@@ -7,10 +7,6 @@
 
 namespace mansard::formats::detail {
 
-/// What may stand between tags or in quotation marks: &, <, >, " as entities; characters that XML does not have become
-/// blanks, and bytes that are not UTF-8 U+FFFD.
-[[nodiscard]] auto xml_escaped(std::string_view text) -> std::string;
-
 /// A name of an object as an xs:ID: letters, digits, '-', '_' and '.', a letter or '_' first. Others become '_'.
 [[nodiscard]] auto xml_id(std::string_view name) -> std::string;
 

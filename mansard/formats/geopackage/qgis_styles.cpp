@@ -4,6 +4,7 @@
 #include <span>
 
 #include "mansard/base/text.hpp"
+#include "mansard/base/utf8.hpp"
 #include "mansard/formats/detail/parts.hpp"
 #include "mansard/formats/geopackage/geopackage_tables.hpp"
 
@@ -145,23 +146,12 @@ constexpr std::array styles{
 
 // ---- XML
 
-auto escaped(std::string_view text) -> std::string {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
-  }
-  return out;
-}
-
 using Members = std::vector<std::pair<std::string_view, std::string>>;
 
 auto tag(std::string_view name, const Members& attributes) -> std::string {
   std::string out = "<" + std::string(name);
-  for (const auto& [key, value] : attributes) out += " " + std::string(key) + "=\"" + escaped(value) + "\"";
+  for (const auto& [key, value] : attributes)
+    out += " " + std::string(key) + "=\"" + base::markup_escaped(value) + "\"";
   return out;
 }
 auto empty(std::string_view name, const Members& attributes) -> std::string { return tag(name, attributes) + "/>"; }
@@ -169,7 +159,7 @@ auto element(std::string_view name, const Members& attributes, const std::string
   return tag(name, attributes) + ">" + inner + "</" + std::string(name) + ">";
 }
 auto text_element(std::string_view name, std::string_view text, const Members& attributes = {}) -> std::string {
-  return element(name, attributes, escaped(text));
+  return element(name, attributes, base::markup_escaped(text));
 }
 
 /// What of a layer its style depends on.

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "mansard/base/text.hpp"
+#include "mansard/base/utf8.hpp"
 #include "mansard/formats/detail/parts.hpp"
 
 namespace mansard::formats::detail {
@@ -63,7 +64,7 @@ auto text_of(const model::Value& value) -> std::string {
     auto operator()(bool v) const -> std::string { return v ? "true" : "false"; }
     auto operator()(std::int64_t v) const -> std::string { return std::to_string(v); }
     auto operator()(double v) const -> std::string { return base::to_text(v); }
-    auto operator()(const std::string& v) const -> std::string { return as_utf8(v); }
+    auto operator()(const std::string& v) const -> std::string { return base::as_utf8(v); }
   };
   return std::visit(Text{}, value);
 }
@@ -194,11 +195,6 @@ class ColumnWriter {
 
 }  // namespace
 
-auto as_utf8(const std::string& text) -> std::string {
-  if (std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; })) return text;
-  return nlohmann::json::parse(detail::quoted(text)).get<std::string>();
-}
-
 PartColumns::PartColumns() {
   columns_.push_back(
       {"building_id", "building_id", "The feature that the part belongs to.", false, {}, true, false, Kind::text});
@@ -217,7 +213,7 @@ auto PartColumns::column(bool of_part, const std::string& name) -> std::uint32_t
   const auto [at, added] = number_of_.try_emplace({of_part, name}, static_cast<std::uint32_t>(columns_.size()));
   if (added) {
     Column& fresh = columns_.emplace_back();
-    fresh.name = as_utf8(name);
+    fresh.name = base::as_utf8(name);
     fresh.of_part = of_part;
   }
   return at->second;
@@ -235,8 +231,8 @@ void PartColumns::add(Row& row, bool of_part, const std::string& name, const mod
 
 auto PartColumns::row(const model::Building& building, const std::string& building_key, std::int64_t order,
                       const model::Part* part, const std::string& part_key) -> Row {
-  Row row{{0, as_utf8(building_key)}, {2, order}};
-  if (part != nullptr) row.emplace_back(1, as_utf8(part_key));
+  Row row{{0, base::as_utf8(building_key)}, {2, order}};
+  if (part != nullptr) row.emplace_back(1, base::as_utf8(part_key));
   for (const auto& [name, value] : building.attributes) add(row, false, name, value);
   if (part != nullptr)
     for (const auto& [name, value] : part->attributes) add(row, true, name, value);

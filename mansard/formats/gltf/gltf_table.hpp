@@ -107,7 +107,4 @@ class TableBytes {
   std::vector<TableColumn> columns_;
 };
 
-/// What is not UTF-8 becomes U+FFFD.
-[[nodiscard]] auto as_utf8(const std::string& text) -> std::string;
-
 }  // namespace mansard::formats::detail

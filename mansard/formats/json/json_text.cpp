@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "mansard/base/text.hpp"
-#include "mansard/formats/json/utf8.hpp"
+#include "mansard/base/utf8.hpp"
 
 namespace mansard::formats::detail {
 namespace {
@@ -24,7 +24,7 @@ void append_quoted(std::string& out, std::string_view value) {
       out += "\\u00";
       out += hex[code >> 4U];
       out += hex[code & 15U];
-    } else if (const std::size_t length = utf8_length(value.substr(i)); length == 0) {
+    } else if (const std::size_t length = base::utf8_length(value.substr(i)); length == 0) {
       out += "\xEF\xBF\xBD";
     } else {
       out += value.substr(i, length);
@@ -37,21 +37,6 @@ void append_quoted(std::string& out, std::string_view value) {
 }
 
 }  // namespace
-
-auto utf8_length(std::string_view s) -> std::size_t {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
-  const auto continues = [&](std::size_t i, unsigned least = 0x80, unsigned most = 0xBF) {
-    return i < s.size() && byte(i) >= least && byte(i) <= most;
-  };
-  const unsigned b = byte(0);
-  if (b < 0x80) return 1;
-  if (b >= 0xC2 && b <= 0xDF) return continues(1) ? 2 : 0;
-  if (b >= 0xE0 && b <= 0xEF)
-    return continues(1, b == 0xE0 ? 0xA0 : 0x80, b == 0xED ? 0x9F : 0xBF) && continues(2) ? 3 : 0;
-  if (b >= 0xF0 && b <= 0xF4)
-    return continues(1, b == 0xF0 ? 0x90 : 0x80, b == 0xF4 ? 0x8F : 0xBF) && continues(2) && continues(3) ? 4 : 0;
-  return 0;
-}
 
 auto quoted(std::string_view value) -> std::string {
   std::string out;

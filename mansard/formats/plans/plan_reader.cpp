@@ -312,6 +312,7 @@ auto parse_plan(std::string_view text, const std::string& name) -> base::Result<
 }
 
 auto plans_reader(const Path& path) -> ReaderResult {
+  if (auto large = large_plans_reader(path)) return ReaderResult(std::move(large));
   const auto text = base::read_file(path);
   if (!text) return text.failure();
   std::vector<base::Diagnostic> refused;

@@ -1,6 +1,8 @@
 // Plan + profiles as JSON and back: docs/formats.md and docs/plan.schema.json describe the format.
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -36,6 +38,8 @@ class PlansText {
 /// and `refused` has the same codes.
 [[nodiscard]] auto parse_plans(std::string_view text, const std::string& name, std::vector<base::Diagnostic>& refused)
     -> base::Result<model::City>;
+/// Reads building by building where the file is large, and its buildings come last and near their origin; else null.
+[[nodiscard]] auto large_plans_reader(const std::filesystem::path& path) -> std::unique_ptr<CityReader>;
 /// One plan by itself; the same codes.
 [[nodiscard]] auto parse_plan(std::string_view text, const std::string& name) -> base::Result<model::Plan>;
 

@@ -2,6 +2,7 @@
 
 #include "mansard/base/files.hpp"
 #include "mansard/formats/detail/parts.hpp"
+#include "mansard/formats/detail/writers.hpp"
 #include "mansard/formats/plans/plan_text.hpp"
 
 namespace mansard::formats {
@@ -15,12 +16,8 @@ auto plans(const model::City& city) -> std::string {
 }
 
 auto read_plans(const std::filesystem::path& path) -> base::Result<model::City> {
-  const auto text = base::read_file(path);
-  if (!text) return text.error();
-  std::vector<base::Diagnostic> refused;
-  auto city = detail::parse_plans(*text, path.string(), refused);
-  if (city && !refused.empty()) return base::Failure{std::move(refused)};
-  return city;
+  auto reader = detail::plans_reader(path);
+  return reader ? read_whole(**reader) : base::Result<model::City>(reader.failure());
 }
 
 auto plan_json(const model::Plan& plan) -> std::string {

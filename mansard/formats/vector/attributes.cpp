@@ -12,7 +12,7 @@
 
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
-#include "mansard/formats/json/utf8.hpp"
+#include "mansard/base/utf8.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -224,7 +224,7 @@ auto as_given(std::vector<std::string> ids, const std::vector<RawFeature>& featu
 auto holdable(const std::string& id) -> std::string {
   std::string out;
   for (std::size_t i = 0; i < id.size();) {
-    const auto length = detail::utf8_length(std::string_view(id).substr(i));
+    const auto length = base::utf8_length(std::string_view(id).substr(i));
     const auto code = static_cast<unsigned char>(id[i]);
     if (length == 0 || code < 0x20 || code == 0x7F) out += "\xEF\xBF\xBD";
     else out += id.substr(i, length);
@@ -320,7 +320,7 @@ auto OtherStrings::check() const -> base::Result<void> {
 
 void OtherStrings::take(std::string& text, const std::string& name, std::int64_t number) {
   for (std::string_view rest = text; !rest.empty();) {
-    const auto length = detail::utf8_length(rest);
+    const auto length = base::utf8_length(rest);
     rest.remove_prefix(length);
     if (length > 0) continue;
     if (encoding_.empty()) {

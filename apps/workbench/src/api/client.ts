@@ -63,6 +63,8 @@ export class Client {
     this.json<{ ids: string[] }>("GET", this.of(run, `/search?words=${escaped(words)}`), undefined, signal);
   layers = (run: string) => this.json<api.Layers>("GET", this.of(run, "/layers"));
   /** Of all buildings, or of one. */
+  column = (run: string, attribute: string) =>
+    this.json<api.AttributeColumn>("GET", this.of(run, `/column?attribute=${escaped(attribute)}`));
   attributes = (run: string, building?: string) =>
     this.json<api.AttributeTable>("GET", this.of(run, `/attributes${building === undefined ? "" : `?building=${escaped(building)}`}`));
   level = (run: string, lod: string) => this.json<api.LevelOfDetail>("GET", this.of(run, `/levels/${escaped(lod)}`));

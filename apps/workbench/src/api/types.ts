@@ -85,6 +85,7 @@ export interface BuildingList {
   errors: (number | null)[]; // mse, m²: of unedited buildings as the run measured it over their parts
   confidences: (number | null)[]; // probability that the model is right
   edited: boolean[];
+  attributes: AttributeMeaning[]; // that some building or part has
   shapes: number[][][]; // of each part: base, height of a prism in place of its model, x, y, x, y …, in centimetres
   reasons: Record<string, Diagnostic[]>; // by id, of those that have some
   history: History;
@@ -133,6 +134,12 @@ export interface BuildingAttributes {
 export interface AttributeTable {
   attributes: AttributeMeaning[];
   buildings: BuildingAttributes[];
+}
+
+/** One attribute of all buildings, in the order of the list; null also where a computed one is of before an edit. */
+export interface AttributeColumn {
+  attribute: AttributeMeaning;
+  values: AttributeValue[];
 }
 
 /** The buildings at a lower level of detail. */

@@ -1,6 +1,6 @@
 // Reviewing the buildings of the open run one after the other: decisions, the queue, and what is loaded ahead of need.
 import { batch, computed, effect, signal } from "@preact/signals";
-import { attempt, client, fly, needModelsOf, onReview, select, showMessage, showSuccess, warn } from "../actions";
+import { attempt, client, fly, forgetColumns, needModelsOf, onReview, select, showMessage, showSuccess, warn } from "../actions";
 import { Refused } from "../api/client";
 import type * as api from "../api/types";
 import { session } from "../edit/here";
@@ -159,6 +159,7 @@ async function send(request: api.ReviewRequest) {
 
 /** Attributes that the page has of the run lack the decision. */
 function attributesChanged(run: string) {
+  forgetColumns(run);
   if (state.attributes.value.has(run)) state.outdatedAttributes.value = new Set(state.outdatedAttributes.value).add(run);
 }
 

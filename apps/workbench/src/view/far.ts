@@ -2,6 +2,7 @@
 import * as THREE from "three";
 import { type Large, type Shape, boxOfShapes } from "../large";
 import type { Vector } from "./camera";
+import type { Colour } from "./styling";
 import { type ModelLook, modelMaterial } from "./materials";
 import { type Hit, type Ray, enters } from "./pick";
 
@@ -13,6 +14,13 @@ const outlinesWithin = 2000;
 const wallsWithin = 800;
 const slice = 12; // ms of building buffers, between which the page does other things
 const pause = 700; // ms between images while they are built: an image of a whole city takes longer than a slice
+
+/** How many vertices the roof and the walls of a prism have; its box has six. */
+interface Counts {
+  roof: number;
+  walls: number;
+}
+const boxVertices = 6;
 
 /** Positions, normals and kinds of some prisms, relative to a centre: first the box of each roof, then roofs, then walls. */
 export function prisms(shapes: readonly Shape[], centre: Vector) {
@@ -35,13 +43,17 @@ export function prisms(shapes: readonly Shape[], centre: Vector) {
     for (const [x, y] of [[a.x, a.y], [b.x, a.y], [b.x, b.y], [a.x, a.y], [b.x, b.y], [a.x, b.y]] as const) corner(x, y, top, up, roof);
   }
   const boxes = kinds.length;
-  for (const { top, ring } of rings) {
+  const counts = rings.map((): Counts => ({ roof: 0, walls: 0 }));
+  for (const [n, { top, ring }] of rings.entries()) {
+    const before = kinds.length;
     const points = [...ring]; // triangulateShape may shorten what it is given
     for (const triangle of THREE.ShapeUtils.triangulateShape(points, []))
       for (const k of triangle) corner(ring[k]!.x, ring[k]!.y, top, up, roof);
+    counts[n]!.roof = kinds.length - before;
   }
   const roofs = kinds.length - boxes;
-  for (const { base, top, ring } of rings)
+  for (const [n, { base, top, ring }] of rings.entries()) {
+    const before = kinds.length;
     ring.forEach((a, i) => {
       const b = ring[(i + 1) % ring.length]!;
       const length = Math.hypot(b.x - a.x, b.y - a.y);
@@ -49,13 +61,35 @@ export function prisms(shapes: readonly Shape[], centre: Vector) {
       const n = [(b.y - a.y) / length, (a.x - b.x) / length, 0];
       for (const [p, z] of [[a, base], [b, base], [b, top], [a, base], [b, top], [a, top]] as const) corner(p.x, p.y, z, n, wall);
     });
-  return { positions, normals, kinds, boxes, roofs };
+    counts[n]!.walls = kinds.length - before;
+  }
+  return { positions, normals, kinds, boxes, roofs, counts };
+}
+
+/** Red, green, blue and whether it is painted of each vertex of such prisms, 0 to 255. `colours`: of each prism. */
+export function painted(counts: readonly Counts[], colours: readonly (Colour | undefined)[]): Uint8Array<ArrayBuffer> {
+  const all = counts.reduce((sum, { roof, walls }) => sum + boxVertices + roof + walls, 0);
+  const out = new Uint8Array(4 * all);
+  let at = 0;
+  for (const size of [() => boxVertices, ({ roof }: Counts) => roof, ({ walls }: Counts) => walls])
+    counts.forEach((count, n) => {
+      const colour = colours[n];
+      const end = at + 4 * size(count);
+      if (colour) {
+        const [r, g, b] = colour.map((c) => Math.round(255 * c));
+        for (; at < end; at += 4) out.set([r!, g!, b!, 255], at);
+      }
+      at = end;
+    });
+  return out;
 }
 
 interface Drawn {
   mesh: THREE.Mesh;
   boxes: number; // vertices
   roofs: number;
+  counts: Counts[]; // of the prisms
+  paints: ReadonlyMap<string, Colour> | null; // that it has
 }
 
 export class Far {
@@ -67,12 +101,37 @@ export class Far {
   private waiting: string[] = [];
   private timer: ReturnType<typeof setTimeout> | undefined;
   private asked = 0;
+  private paints: ReadonlyMap<string, Colour> | null = null;
 
   constructor(
     look: ModelLook,
     private readonly arrived: () => void,
   ) {
     this.material = modelMaterial(look);
+    // Prisms without colours of their own have no buffer for them.
+    (this.material as THREE.ShaderMaterial & { defaultAttributeValues: Record<string, number[]> }).defaultAttributeValues = {
+      ...this.material.defaultAttributeValues,
+      paint: [0, 0, 0, 0],
+    };
+  }
+
+  /** Colours the buildings; null: by the class of their faces. */
+  paint(colours: ReadonlyMap<string, Colour> | null) {
+    if (colours === this.paints) return;
+    this.paints = colours;
+    for (const [key, drawn] of this.meshes) if (drawn.mesh.visible) this.paintTile(key, drawn);
+  }
+  private paintTile(key: string, drawn: Drawn) {
+    if (drawn.paints === this.paints) return;
+    drawn.paints = this.paints;
+    const { geometry } = drawn.mesh;
+    if (!this.paints) {
+      geometry.deleteAttribute("paint");
+      return;
+    }
+    const { tiles, shapes, rows } = this.large!;
+    const colours = tiles.get(key)!.buildings.flatMap((i) => shapes[i]!.map(() => this.paints!.get(rows[i]!.id)));
+    geometry.setAttribute("paint", new THREE.BufferAttribute(painted(drawn.counts, colours), 4, true));
   }
 
   set(large: Large | null, centre: Vector) {
@@ -84,7 +143,10 @@ export class Far {
       this.waiting = [...(large?.tiles.keys() ?? [])];
       if (this.waiting.length) this.timer = setTimeout(this.build);
     }
-    for (const [key, { mesh }] of this.meshes) mesh.visible = !large?.loaded.has(key);
+    for (const [key, drawn] of this.meshes) {
+      drawn.mesh.visible = !large?.loaded.has(key);
+      if (drawn.mesh.visible) this.paintTile(key, drawn);
+    }
   }
 
   /** Builds buffers for a moment, and goes on later. */
@@ -95,6 +157,7 @@ export class Far {
       const key = this.waiting.pop()!;
       const drawn = this.meshOf(tiles.get(key)!.buildings.flatMap((i) => shapes[i]!));
       drawn.mesh.visible = !loaded.has(key);
+      if (drawn.mesh.visible) this.paintTile(key, drawn);
       this.meshes.set(key, drawn);
       this.group.add(drawn.mesh);
     }
@@ -136,14 +199,13 @@ export class Far {
   }
 
   private meshOf(shapes: readonly Shape[]): Drawn {
-    const { positions, normals, kinds, boxes, roofs } = prisms(shapes, this.centre);
+    const { positions, normals, kinds, boxes, roofs, counts } = prisms(shapes, this.centre);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(Int8Array.from(normals, (n) => Math.round(127 * n)), 3, true));
     geometry.setAttribute("kind", new THREE.BufferAttribute(Uint8Array.from(kinds), 1));
-    geometry.setAttribute("paint", new THREE.BufferAttribute(new Uint8Array(4 * kinds.length), 4, true));
     geometry.computeBoundingSphere();
-    return { mesh: new THREE.Mesh(geometry, this.material), boxes, roofs };
+    return { mesh: new THREE.Mesh(geometry, this.material), boxes, roofs, counts, paints: null };
   }
 
   clear() {

@@ -89,12 +89,13 @@ export function LayersPopover() {
 /** The attribute that colours the models, their level of detail, and models of other programs. */
 function ModelChoices() {
   const run = state.run.value?.id;
+  const large = state.run.value?.large;
   useEffect(() => {
-    if (run) void needAttributes(run);
+    if (run && !large) void needAttributes(run);
   }, [run]);
   if (!run) return null;
-  const table = state.attributes.value.get(run);
-  const [ours, source] = [false, true].map((s) => table?.attributes.filter((a) => a.source === s) ?? []);
+  const known = large?.attributes ?? state.attributes.value.get(run)?.attributes;
+  const [ours, source] = [false, true].map((s) => known?.filter((a) => a.source === s) ?? []);
   const option = (a: { name: string; unit: string; meaning: string }) => (
     <option key={a.name} value={a.name} title={a.meaning}>
       {a.name}

@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
-import { missing, ramp, scaleOf } from "./styling";
+import type { Row } from "../panels/table";
+import { missing, ramp, scaleOf, valuesOfLarge } from "./styling";
 
 const what = { name: "h", unit: "m", meaning: "" };
 
@@ -33,4 +34,13 @@ test("categories have different colours, the rarest share one", () => {
 
 test("yes and no are categories", () => {
   expect(scaleOf(new Map([["a", true], ["b", false]]), what).categories.map((c) => c.value)).toEqual(["no", "yes"]);
+});
+
+test("of a large run all buildings have a value, whether their models are loaded or not", () => {
+  const rows = ["a", "b"].map((id, i) => ({ id, rmse: i ? 0.5 : null, outcome: "full", edited: i === 1 }) as Row);
+  expect([...valuesOfLarge("own error", { rows }, undefined)!]).toEqual([["a", null], ["b", 0.5]]);
+  expect([...valuesOfLarge("own edited", { rows }, undefined)!]).toEqual([["a", false], ["b", true]]);
+  expect(valuesOfLarge("year", { rows }, undefined)).toBeNull(); // until the server has answered nothing is coloured
+  const column = { attribute: { name: "year", source: true, unit: "", meaning: "" }, values: [1900, null] };
+  expect([...valuesOfLarge("year", { rows }, column)!]).toEqual([["a", 1900], ["b", null]]);
 });

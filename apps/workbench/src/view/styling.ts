@@ -1,6 +1,7 @@
 // Buildings coloured by an attribute: the scale, the colours, and the legend.
 import { computed, signal } from "@preact/signals";
-import type { AttributeTable, AttributeValue, Building } from "../api/types";
+import type { AttributeColumn, AttributeTable, AttributeValue, Building } from "../api/types";
+import type { Large } from "../large";
 
 export type Colour = [number, number, number]; // 0 … 1
 
@@ -106,6 +107,18 @@ export function valuesOf(
       if (out.has(id)) out.set(id, name in values ? values[name] : parts.find((p) => name in p.values)?.values[name]);
   }
   return out;
+}
+
+/** The same of a large run: of all its buildings, near and far. Null until the server has answered. */
+export function valuesOfLarge(
+  name: string,
+  { rows }: Pick<Large, "rows">,
+  column: AttributeColumn | undefined,
+): Map<string, AttributeValue | undefined> | null {
+  if (name === "own error") return new Map(rows.map((row) => [row.id, row.rmse]));
+  if (name === "own outcome") return new Map(rows.map((row) => [row.id, row.outcome]));
+  if (name === "own edited") return new Map(rows.map((row) => [row.id, row.edited]));
+  return column ? new Map(rows.map((row, i) => [row.id, column.values[i]])) : null;
 }
 
 export const whatIs = (name: string, table: AttributeTable | undefined) => {

@@ -314,6 +314,7 @@ export class Viewer {
   setPaint(colours: ReadonlyMap<string, Colour> | null) {
     this.paints = colours;
     for (const side of this.sides) side?.output.paint(colours);
+    this.far.paint(colours);
     this.request();
   }
   private paints: ReadonlyMap<string, Colour> | null = null;

@@ -1,19 +1,20 @@
-#include "apps/server/review.hpp"
+#include "mansard/report/review.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "apps/server/json.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/nesting.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/hash.hpp"
 
-namespace mansard::server {
+namespace mansard::report {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 constexpr const char* review_type = "mansard-review";
 constexpr int review_version = 1;
@@ -137,9 +138,10 @@ auto merged(const Decisions& first, const Decisions& second) -> MergedReview {
   return out;
 }
 
-auto model_key(std::span<const edit::NamedPlan> parts, const model::Frame& frame) -> std::string {
+auto model_key(std::span<const model::Plan* const> parts, const model::Frame& frame) -> std::string {
   std::string text;
-  for (const auto& [id, plan] : parts) {
+  for (const auto* part : parts) {
+    const auto& plan = *part;
     (((text += "part ") += millimetres(frame.origin[2], plan.base)) += ' ') += millimetres(0, plan.cap);
     const auto ring = [&](const model::PlanRing& of) {
       text += "\nring";
@@ -192,4 +194,4 @@ auto review_attributes() -> std::vector<formats::Attribute> {
           one("ms_review_time", "When, in UTC (ISO 8601); present with ms_review.")};
 }
 
-}  // namespace mansard::server
+}  // namespace mansard::report

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "mansard/base/result.hpp"
-#include "mansard/edit/edit.hpp"
 #include "mansard/formats/attributes.hpp"
 #include "mansard/model/attributes.hpp"
-#include "mansard/model/city.hpp"
+#include "mansard/model/frame.hpp"
+#include "mansard/model/plan.hpp"
 
-namespace mansard::server {
+namespace mansard::report {
 
 enum class Verdict : std::uint8_t { right, wrong, later };
 inline constexpr std::array<std::string_view, 3> verdict_names{"right", "wrong", "later"};
@@ -59,9 +59,9 @@ struct MergedReview {
 };
 [[nodiscard]] auto merged(const Decisions& first, const Decisions& second) -> MergedReview;
 
-/// Hash of the plans of a building, to the millimetre, in the coordinates of its files: the same in every run, project
-/// and frame that has the same model.
-[[nodiscard]] auto model_key(std::span<const edit::NamedPlan> parts, const model::Frame& frame) -> std::string;
+/// Hash of the plans of a building's parts, to the millimetre, in the coordinates of its files: the same in every run,
+/// project and frame that has the same model.
+[[nodiscard]] auto model_key(std::span<const model::Plan* const> parts, const model::Frame& frame) -> std::string;
 
 /// The attributes of a building with such a decision: ms_review and those beside it.
 [[nodiscard]] auto attributes_of(const Decision& decision) -> model::Attributes;
@@ -70,4 +70,4 @@ void set_review(model::Attributes& attributes, const Decision* decision);
 [[nodiscard]] auto has_review(const model::Attributes& attributes) -> bool;
 [[nodiscard]] auto review_attributes() -> std::vector<formats::Attribute>;
 
-}  // namespace mansard::server
+}  // namespace mansard::report
