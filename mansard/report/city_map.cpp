@@ -11,7 +11,7 @@ namespace {
 
 // Units of the drawing, a tenth of a pixel of a map that is a thousand wide.
 constexpr double map_size = 10'000, map_border = 150, mark_radius = 130;
-constexpr double least_height = 2'500, most_height = 12'000;
+constexpr double least_map_height = 2'500, most_map_height = 12'000;
 
 }  // namespace
 
@@ -35,8 +35,8 @@ void CityMap::add(const std::vector<geometry::Polygon>& outline, std::uint8_t ki
 auto CityMap::svg(const std::vector<Kind>& kinds, std::string_view label) const -> std::string {
   if (empty()) return {};
   const double across = std::max(box_.most.x - box_.least.x, 1.0), along = std::max(box_.most.y - box_.least.y, 1.0);
-  const double scale = std::min((map_size - 2 * map_border) / across, (most_height - 2 * map_border) / along);
-  const double height = std::max(2 * map_border + along * scale, least_height);
+  const double scale = std::min((map_size - 2 * map_border) / across, (most_map_height - 2 * map_border) / along);
+  const double height = std::max(2 * map_border + along * scale, least_map_height);
   const double left = 0.5 * (map_size - across * scale), top = 0.5 * (height - along * scale);
   const auto x = [&](double m) { return std::lround(left + (m - box_.least.x) * scale); };
   const auto y = [&](double m) { return std::lround(top + (box_.most.y - m) * scale); };
