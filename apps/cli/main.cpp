@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -154,8 +155,9 @@ auto with_flags_closed(const std::vector<Verb>& verbs, int argc, char** argv) ->
 
 /// Of whatever is read, before the verb begins. Outputs are checked by the verbs.
 auto check_inputs(const std::vector<std::string>& typed) -> base::Result<void> {
+  constexpr std::array outputs{"-o", "--output", "--report", "--export-mps"};
   for (std::size_t i = 2; i < typed.size(); ++i) {
-    if (typed[i - 1] == "-o" || typed[i - 1] == "--output") continue;
+    if (std::ranges::find(outputs, typed[i - 1]) != outputs.end()) continue;
     const auto value = typed[i].starts_with("--") ? typed[i].find('=') : std::string::npos;
     const auto word = value == std::string::npos ? typed[i] : typed[i].substr(value + 1);
     if (auto checked = formats::check_given(word); !checked) return checked;

@@ -196,6 +196,8 @@ const part = building.parts[0];
 const name = { building: building.id, part: part.id };
 await call("get", "/api/runs/{run}/section", { at: of, query: { ...name, ring: 0, edge: 0, share: 0.5 } });
 await call("post", "/api/runs/{run}/section", { at: of, body: { plan: part.plan, ring: 0, edge: 0, share: 0.5 } });
+const { roofs } = await call("post", "/api/runs/{run}/roofs", { at: of, body: { kind: "gable", parts: [{ ...name, plan: part.plan }] } });
+assert.equal(roofs.length, 1);
 const parts = building.parts.map(({ id, plan }) => ({ id, plan }));
 const changes = [{ building: building.id, revision: building.revision, parts }];
 parts[0] = { id: part.id, plan: { ...part.plan, cap: part.plan.cap + 0.5 } };
