@@ -45,6 +45,13 @@ auto views_of(detail::Scenery scenery, std::span<const Lines> lines, std::span<c
   return images;
 }
 
+/// A picture onto a larger one.
+void put(const Image& image, std::size_t left, std::size_t top, Image& onto) {
+  for (std::size_t y = 0; y < image.height; ++y)
+    std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * y * image.width), 3 * image.width,
+                onto.pixels.begin() + static_cast<std::ptrdiff_t>(3 * ((top + y) * onto.width + left)));
+}
+
 }  // namespace
 
 auto draw_views(std::span<const Layer> layers, std::span<const Lines> lines, std::span<const View> views,
@@ -76,9 +83,7 @@ auto beside(std::span<const Image> images) -> Image {
   out.pixels.assign(3 * out.width * out.height, 255);
   std::size_t left = 0;
   for (const Image& image : images) {
-    for (std::size_t y = 0; y < image.height; ++y)
-      std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * y * image.width), 3 * image.width,
-                  out.pixels.begin() + static_cast<std::ptrdiff_t>(3 * (y * out.width + left)));
+    put(image, left, 0, out);
     left += image.width + gap;
   }
   return out;
@@ -93,9 +98,7 @@ auto below(std::span<const Image> images) -> Image {
   out.pixels.assign(3 * out.width * out.height, 255);
   std::size_t top = 0;
   for (const Image& image : images) {
-    for (std::size_t y = 0; y < image.height; ++y)
-      std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * y * image.width), 3 * image.width,
-                  out.pixels.begin() + static_cast<std::ptrdiff_t>(3 * (top + y) * out.width));
+    put(image, 0, top, out);
     top += image.height + gap;
   }
   return out;

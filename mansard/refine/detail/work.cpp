@@ -37,15 +37,16 @@ auto is_sound(const base::Result<extrude::Raised>& raised) -> bool {
 }
 
 /// Whether most points over a piece lie on its roof: of crowns, and of gaps through which some see the ground, few do.
+/// Clearly more than half, within twice what a fit of lines takes for noise; chosen by hand (decision 137).
 auto is_of_roof(const Piece& piece, const Options& options) -> bool {
-  constexpr double most = 0.6;
+  constexpr double most = 0.6, noises = 2;
   const Site& site = piece.site;
   if (!site.of_points) return true;
   std::size_t on = 0, clear = 0;
   for (std::size_t i = 0; i < site.z.size(); ++i) {
     if (site.weight[i] < 1) continue;
     ++clear;
-    if (std::abs(piece.roof.view.z_of(site, i) - site.z[i]) <= 2 * options.lines.robust) ++on;
+    if (std::abs(piece.roof.view.z_of(site, i) - site.z[i]) <= noises * options.lines.robust) ++on;
   }
   return static_cast<double>(on) >= most * static_cast<double>(clear);
 }
