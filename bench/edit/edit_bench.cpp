@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/edit/options.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/edit/edit.hpp"
 #include "mansard/formats/documents.hpp"
@@ -28,7 +29,7 @@ auto milliseconds(const Work& work) -> double {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-void report(const char* what, std::vector<double> times) {
+void print_times(const char* what, std::vector<double> times) {
   if (times.empty()) return;
   std::ranges::sort(times);
   std::printf("%-34s n %4zu  median %8.2f ms  95 %% %8.2f ms  worst %8.2f ms\n", what, times.size(),
@@ -96,19 +97,14 @@ void cut_tiles(const geometry::Mesh& mesh) {
 }  // namespace
 
 auto main(int argc, char** argv) -> int {
-  if (argc == 2 && base::to_whole(argv[1])) {
-    cut_tiles(hills(static_cast<std::uint32_t>(std::sqrt(static_cast<double>(*base::to_whole(argv[1])) / 2))));
+  if (argc == 2 && base::to_integer(argv[1])) {
+    cut_tiles(hills(static_cast<std::uint32_t>(std::sqrt(static_cast<double>(*base::to_integer(argv[1])) / 2))));
     return 0;
   }
   if (argc < 3) return std::puts("bench_edit MESH FOOTPRINTS [MODULE.OPTION=VALUE…]"), 2;
-  pipeline::Options options;
-  auto lists = pipeline::option_lists(options);
-  for (int i = 3; i < argc; ++i) {
-    const std::string word = argv[i];
-    const auto equals = word.find('=');
-    if (auto set = pipeline::set_option(lists, word.substr(0, equals), word.substr(equals + 1)); !set)
-      return std::puts(base::to_string(set.error()).c_str()), 2;
-  }
+  const auto given = bench::options_of(argc, argv);
+  if (!given) return std::puts(base::to_string(given.error()).c_str()), 2;
+  const pipeline::Options& options = *given;
   const auto scene = ingest::read_scene({argv[1]}, argv[2], options.ingest);
   if (!scene) return std::puts(base::to_string(scene.error()).c_str()), 3;
   std::printf("%zu triangles, %zu footprints\n", scene->mesh.triangles.size(), scene->footprints.size());
@@ -151,10 +147,10 @@ auto main(int argc, char** argv) -> int {
     one_thread.push_back(best([&] { (void)edit::raise(parts, site, options); }));
     base::limit_threads(0);
   }
-  report("raise + measure, a building", all);
-  report("… of at most 10 corners", small);
-  report("… one thread", one_thread);
-  report("… without measuring", without_mesh);
+  print_times("raise + measure, a building", all);
+  print_times("… of at most 10 corners", small);
+  print_times("… one thread", one_thread);
+  print_times("… without measuring", without_mesh);
   std::printf("%zu of %zu buildings invalid as they are, %zu parts less than full; most corners %zu\n", invalid,
               all.size(), less, corners_most);
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/edit/options.hpp"
 #include "mansard/base/statistics.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/edit/roofs.hpp"
@@ -51,14 +52,9 @@ auto highest(const model::Plan& plan, const rays::Scene& scan) -> double {
 
 auto main(int argc, char** argv) -> int {
   if (argc < 3) return std::puts("bench_roofs MESH FOOTPRINTS [MODULE.OPTION=VALUE…]"), 2;
-  pipeline::Options options;
-  auto lists = pipeline::option_lists(options);
-  for (int i = 3; i < argc; ++i) {
-    const std::string word = argv[i];
-    const auto equals = word.find('=');
-    if (auto set = pipeline::set_option(lists, word.substr(0, equals), word.substr(equals + 1)); !set)
-      return std::puts(base::to_string(set.error()).c_str()), 2;
-  }
+  const auto given = bench::options_of(argc, argv);
+  if (!given) return std::puts(base::to_string(given.error()).c_str()), 2;
+  const pipeline::Options& options = *given;
   const auto scene = ingest::read_scene({argv[1]}, argv[2], options.ingest);
   if (!scene) return std::puts(base::to_string(scene.error()).c_str()), 3;
   const auto run = pipeline::reconstruct(*scene, options);
