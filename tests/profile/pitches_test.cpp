@@ -210,6 +210,22 @@ TEST(Rising, stops_at_the_ridge) {
   }
 }
 
+TEST(Runs, end_where_a_curve_begins) {
+  Polygon church;  // a nave, and twelve chords of a half circle
+  for (int i = 0; i <= 12; ++i) {
+    const double angle = 3.14159265358979 * (i / 12.0 - 0.5);
+    church.outer.push_back({20 + 5 * std::cos(angle), 5 + 5 * std::sin(angle)});
+  }
+  church.outer.push_back({0, 10});
+  church.outer.push_back({0, 0});
+  const auto runs = runs_of(church, 0.1);
+  ASSERT_EQ(runs.size(), 4U);
+  std::vector<std::size_t> lengths;
+  for (const auto& run : runs) lengths.push_back(run.edges.size());
+  std::ranges::sort(lengths);
+  EXPECT_EQ(lengths, (std::vector<std::size_t>{1, 1, 1, 12}));
+}
+
 TEST(Runs, know_the_neighbours_they_hardly_turn_from) {
   const Polygon polygon{{{0, 0}, {9, 0}, {10, 0.3}, {10, 8}, {0, 8}}, {}};
   const auto runs = runs_of(polygon, 0.1);

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "mansard/base/run.hpp"
 #include "mansard/sweep/detail/registration.hpp"
 #include "sweep/town.hpp"
@@ -55,6 +58,35 @@ TEST(Registration, finds_by_how_much_all_footprints_are_displaced) {
   const auto found = register_footprints(walls_of(house), block_of({drawn}), {});
   EXPECT_LT(length(found.shift + off), 0.01);
   EXPECT_LT(found.spread, 0.01);
+}
+
+/// 24 chords around a middle.
+auto round_house(double radius) -> geometry::Ring {
+  geometry::Ring out;
+  for (int i = 0; i < 24; ++i)
+    out.push_back({10 + radius * std::cos(i * 0.2617993877991494), 10 + radius * std::sin(i * 0.2617993877991494)});
+  return out;
+}
+
+TEST(Registration, puts_walls_on_all_chords_of_a_curve_or_on_none) {
+  const auto ring = round_house(8);
+  const auto block = block_of({ring});
+  // Straight pieces over two chords each, as slices give them, along two thirds of the curve.
+  std::vector<SweepEdge> walls;
+  for (std::size_t i = 0; i < 16; i += 2)
+    walls.push_back({{ring[i + 2], ring[i]}, 5 * length(ring[i + 2] - ring[i]), 0, 5, i});
+  const auto placed = put_on_footprints(walls, block, {}, {});
+  ASSERT_EQ(placed.size(), 24U);
+  const auto chords = edges_of_footprints(block, {});
+  for (const auto& edge : placed)
+    EXPECT_TRUE(std::ranges::any_of(chords, [&](const Segment2& c) { return c == edge.segment; }));
+  double before = 0, after = 0;
+  for (const auto& edge : walls) before += edge.area;
+  for (const auto& edge : placed) after += edge.area;
+  EXPECT_NEAR(after, before, 0.1 * before);  // pieces do not reach all corners
+  // What was seen along a quarter only stays what it is.
+  walls.resize(2);
+  EXPECT_LT(put_on_footprints(walls, block, {}, {}).size(), 10U);
 }
 
 TEST(Registration, is_not_led_astray_by_one_wall_that_is_elsewhere) {

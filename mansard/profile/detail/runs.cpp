@@ -1,5 +1,6 @@
 #include "mansard/profile/detail/runs.hpp"
 #include "mansard/geometry/angles.hpp"
+#include "mansard/geometry/arcs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,18 @@ auto edge_vector(const Ring& ring, std::size_t edge) -> Point2 { return ring[(ed
 auto turns(const Ring& ring, std::size_t vertex, double tangent) -> bool {
   const Point2 before = edge_vector(ring, (vertex + ring.size() - 1) % ring.size()), after = edge_vector(ring, vertex);
   return std::abs(cross(before, after)) >= tangent * dot(before, after);
+}
+
+/// Whether another run begins at a vertex: chords of one curve are one run, and so are edges that hardly turn.
+auto corners_of(const Ring& ring, double tangent) -> std::vector<bool> {
+  const std::size_t n = ring.size();
+  std::vector<bool> out(n);
+  for (std::size_t i = 0; i < n; ++i) out[i] = turns(ring, i, tangent);
+  for (const auto& arc : geometry::arcs_of(ring)) {
+    for (std::size_t k = 0; k <= arc.count; ++k)
+      out[(arc.first + k) % n] = arc.count < n && (k == 0 || k == arc.count);
+  }
+  return out;
 }
 
 /// How far the ray goes before it leaves the polygon. The half-open rule at vertices counts each crossing once.
@@ -53,13 +66,14 @@ auto runs_of(const Polygon& polygon, double angle) -> std::vector<Run> {
   for (std::size_t r = 0; r <= polygon.holes.size(); ++r) {
     const Ring& ring = ring_of(polygon, r);
     const std::size_t n = ring.size();
+    const auto corners = corners_of(ring, tangent);
     // Start at a corner, so that no run is cut by where the ring happens to begin; a circle is one run.
     std::size_t first = 0;
-    while (first < n && !turns(ring, first, tangent)) ++first;
+    while (first < n && !corners[first]) ++first;
     if (first == n) first = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t edge = (first + k) % n;
-      if (k == 0 || turns(ring, edge, tangent)) runs.push_back({r, {}});
+      if (k == 0 || corners[edge]) runs.push_back({r, {}});
       runs.back().edges.push_back(edge);
     }
   }

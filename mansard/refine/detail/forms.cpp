@@ -44,6 +44,9 @@ void consider(std::optional<Nearest>& nearest, Nearest other) {
   if (!nearest || other.inward < nearest->inward - same_distance) nearest = other;
 }
 
+/// Rise per run: by less no two pitches differ that a scan of some metres can tell apart.
+constexpr double least_bend = 1e-3;
+
 /// m: of a profile at a distance from its edge.
 auto height_at(const Profile& profile, double inward) -> double {
   double height = profile.back().height;
@@ -166,6 +169,74 @@ auto mansard_line(std::vector<Look> looks, const Options& options) -> std::optio
     return std::nullopt;
   const double height = lower->at_edge + lower->slope * knot;
   return Profile{{0, 0}, {0, lower->at_edge}, {knot, height}, {knot + 1, height + slope}};
+}
+
+/// Lines one above the other, each from where the one before ends: a profile, if they meet in that order.
+auto profile_through(const std::vector<RoofLine>& lines) -> std::optional<Profile> {
+  Profile out{{0, 0}};
+  if (!(lines.front().at_edge > 0)) return std::nullopt;
+  out.push_back({0, lines.front().at_edge});
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    const double bend = lines[i].slope - lines[i + 1].slope;
+    if (!(std::abs(bend) > least_bend)) return std::nullopt;
+    const double at = (lines[i + 1].at_edge - lines[i].at_edge) / bend;
+    if (!(at > out.back().inward)) return std::nullopt;
+    out.push_back({at, std::max(out.back().height, lines[i].at_edge + lines[i].slope * at)});
+  }
+  out.push_back({out.back().inward + 1, out.back().height + lines.back().slope});
+  return out;
+}
+
+/// A roof that bends to one side, as barrels and domes do: the fewest pitches, three at least, from which it is no
+/// farther on average than half of the smallest detail, or whose further pitches would not pay. What more pitches than
+/// the most do not explain is noise; where that is more than a roof's noise and the smallest detail, it is no such roof.
+/// Cost: O(looks log looks + pitches · places²).
+auto bent_line(std::vector<Look> looks, double area_of_look, const Options& options) -> std::optional<Profile> {
+  constexpr std::size_t fewest_pitches = 3, most_pitches = 12;
+  constexpr std::size_t most_places = 96;  // at which a pitch may end: eight for each
+  constexpr double of_detail = 0.5;
+  std::ranges::stable_sort(looks, {}, &Look::inward);
+  const auto sums = sums_along(looks);
+  const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
+  const std::size_t places = std::min(most_places, looks.size() / fewest);
+  if (places < fewest_pitches) return std::nullopt;
+  const auto place = [&](std::size_t i) { return i * looks.size() / places; };
+  const auto between = [&](std::size_t i, std::size_t j) { return sums[place(j)] - sums[place(i)]; };
+  std::vector<std::vector<double>> own(places + 1, std::vector<double>(places + 1, 0));
+  for (std::size_t i = 0; i < places; ++i)
+    for (std::size_t j = i + 1; j <= places; ++j) own[i][j] = between(i, j).residual();
+  std::vector<std::vector<double>> least(1, own[0]);  // by pitches − 1 and by where the last ends
+  std::vector<std::vector<std::size_t>> from(1, std::vector<std::size_t>(places + 1, 0));
+  for (std::size_t k = 1; k < std::min(most_pitches, places); ++k) {
+    least.emplace_back(places + 1, std::numeric_limits<double>::infinity());
+    from.emplace_back(places + 1, 0);
+    for (std::size_t j = k + 1; j <= places; ++j)
+      for (std::size_t i = k; i < j; ++i)
+        if (const double sum = least[k - 1][i] + own[i][j]; sum < least[k][j]) least[k][j] = sum, from[k][j] = i;
+  }
+  const double noise = least.back()[places], weight = sums.back().weight;
+  const double most_noise = std::max(options.detail, options.lines.robust);
+  if (noise > most_noise * most_noise * weight) return std::nullopt;
+  std::size_t k = 0;
+  for (; k + 1 < least.size(); ++k) {
+    const double left = least[k][places] - noise, gain = least[k][places] - least[k + 1][places];
+    const double wanted = of_detail * options.detail;
+    if (left <= wanted * wanted * weight || gain * area_of_look < options.face_price) break;
+  }
+  if (k + 1 < fewest_pitches) return std::nullopt;
+  std::vector<RoofLine> lines;
+  for (std::size_t j = places; j > 0; j = from[k][j], k = k > 0 ? k - 1 : 0) {
+    const std::size_t i = from[k][j];
+    const auto some = between(i, j);
+    if (!(some.weight > 0 && some.spread() > 0)) return std::nullopt;
+    const double slope = std::clamp(some.joint() / some.spread(), 0.0, options.forms.max_slope);
+    lines.push_back({some.line(slope).at_zero, slope});
+    if (i == 0) break;
+  }
+  std::ranges::reverse(lines);
+  const auto bends = [&](auto order) { return std::ranges::is_sorted(lines, order, &RoofLine::slope); };
+  if (!bends(std::ranges::less()) && !bends(std::ranges::greater())) return std::nullopt;
+  return profile_through(lines);
 }
 
 /// A level strip and what stands behind it, of whatever depth parts them best.
@@ -352,6 +423,9 @@ auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std
     if (line && line->slope >= forms.min_slope && line->slope <= forms.max_slope)
       give(pitched(line->at_edge, line->slope), line->at_edge);
     if (const auto roof = mansard_line(looks, options)) give(*roof, (*roof)[1].height);
+    if (looks.empty()) return;
+    const double area_of_look = of_all(1, looks.size(), site);
+    if (const auto roof = bent_line(looks, area_of_look, options)) give(*roof, (*roof)[1].height);
   };
   for (const Point2 axis : axes_of(sides, forms)) {
     propose([&](std::size_t p) { return std::abs(dot(sides[p].inward, axis)) > forms.across_cosine; });

@@ -9,6 +9,7 @@
 
 #include "mansard/refine/detail/blur.hpp"
 #include "mansard/refine/detail/order.hpp"
+#include "mansard/refine/detail/strips.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -37,11 +38,17 @@ void losses_of(std::size_t count, const Kernel& kernel, const std::array<const d
   }
 }
 
-/// A wall within a profile is said with the level before it, which ends there: it has no numbers of its own.
-auto priced_faces(const model::Solid& sketch) -> double {
-  return static_cast<double>(std::ranges::count_if(sketch.faces, [](const model::Face& face) {
-    return !(face.provenance && face.provenance->part > 0 && std::abs(face.normal.z) <= wall_normal);
-  }));
+/// Chords of a curve are one edge. A wall within a profile is said with the level before it, which ends there: it has no
+/// numbers of its own.
+auto priced_faces(const model::Plan& plan, const model::Solid& sketch) -> double {
+  const auto strips = strips_of(plan, sketch);
+  std::vector<bool> priced(strips.count, false);
+  for (std::size_t f = 0; f < sketch.faces.size(); ++f) {
+    const auto& face = sketch.faces[f];
+    if (!(face.provenance && face.provenance->part > 0 && std::abs(face.normal.z) <= wall_normal))
+      priced[strips.of_face[f]] = true;
+  }
+  return static_cast<double>(std::ranges::count(priced, true));
 }
 
 }  // namespace
@@ -180,14 +187,14 @@ auto Judge::again(const model::Plan& plan, double most) const -> std::optional<J
 
 auto Judge::of(const model::Plan& plan, model::Solid sketch, double most) const -> std::optional<Judged> {
   // Sums of what is not negative, rounded, do not fall by what is added: each bound is one of the cost as priced below.
-  const double faces = options_.face_price * priced_faces(sketch);
+  const double faces = options_.face_price * priced_faces(plan, sketch);
   if (faces >= most) return std::nullopt;
   Judged out{plan, std::move(sketch), {}, 0, {}, 0, 0};
   out.view = cells_of(out.sketch, site_);
   out.misfit = site_.of_points ? misfit_of_points(out.sketch, out.view, most, faces)
                                : misfit_of(out.view, std::numeric_limits<double>::infinity(), most, faces);
   if (out.misfit + faces >= most) return std::nullopt;
-  out.bare = bare_faces(out.sketch, out.view, site_, options_);
+  out.bare = bare_faces(plan, out.sketch, out.view, site_, options_);
   price(out);
   if (known_) known_->add({plan, out.sketch, out.misfit, out.bare});
   return out;
@@ -196,7 +203,7 @@ auto Judge::of(const model::Plan& plan, model::Solid sketch, double most) const 
 void Judge::price(Judged& judged) const {
   // Evidence would have to come from elsewhere: as dear as a part.
   judged.unsupported = options_.part_price * static_cast<double>(judged.bare.size());
-  judged.cost = judged.unsupported + judged.misfit + options_.face_price * priced_faces(judged.sketch);
+  judged.cost = judged.unsupported + judged.misfit + options_.face_price * priced_faces(judged.plan, judged.sketch);
 }
 
 }  // namespace mansard::refine::detail

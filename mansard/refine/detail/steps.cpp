@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "mansard/geometry/arcs.hpp"
 #include "mansard/geometry/fit.hpp"
 #include "mansard/refine/detail/lines.hpp"
 #include "mansard/refine/detail/order.hpp"
@@ -97,10 +98,19 @@ auto carrying(const Plan& plan, std::uint32_t ring, std::uint32_t edge, Profile 
   Plan out = plan;
   PlanRing& of = ring == 0 ? out.outer : out.holes[ring - 1];
   const auto number = of.profile_of_edge[edge];
+  std::vector<std::uint32_t> side{edge};
+  for (const auto& arc : geometry::arcs_of(of.points)) {
+    const std::size_t n = of.points.size();
+    if ((edge + n - arc.first) % n >= arc.count) continue;
+    side.clear();
+    for (std::size_t k = 0; k < arc.count; ++k)
+      if (const auto chord = (arc.first + k) % n; of.profile_of_edge[chord] == number)
+        side.push_back(static_cast<std::uint32_t>(chord));
+  }
   std::ptrdiff_t users = std::ranges::count(out.outer.profile_of_edge, number);
   for (const auto& hole : out.holes) users += std::ranges::count(hole.profile_of_edge, number);
-  if (users > 1) {
-    of.profile_of_edge[edge] = static_cast<std::uint32_t>(out.profiles.size());
+  if (users > std::ssize(side)) {
+    for (const auto other : side) of.profile_of_edge[other] = static_cast<std::uint32_t>(out.profiles.size());
     out.profiles.push_back(std::move(profile));
   } else {
     out.profiles[number] = std::move(profile);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mansard/base/statistics.hpp"
+#include "mansard/geometry/arcs.hpp"
 #include "mansard/geometry/fit.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
@@ -237,6 +238,7 @@ struct Stretch {
   double away;      // m, mean distance
   double from, to;  // m along the sweep-edge
   Segment2 on;      // of the footprint's edge
+  std::size_t curve = 0;  // that the footprint's edge is a chord of, from 1
 };
 
 /// The stretch along which `s` runs up to gis_offset outside and gis_inward inside of `g`; none if there is too little.
@@ -283,7 +285,7 @@ auto without_overlaps(std::vector<Stretch> found, const Options& o) -> std::vect
       const auto at = [&](double x) {
         return stretch.on.start + ((x - stretch.from) / (stretch.to - stretch.from)) * v;
       };
-      kept.push_back({stretch.away, from, to, {at(from), at(to)}});
+      kept.push_back({stretch.away, from, to, {at(from), at(to)}, stretch.curve});
     }
   }
   std::sort(kept.begin(), kept.end(), [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
@@ -309,12 +311,14 @@ auto line_through(const std::vector<Stretch>& stretches) -> Segment2 {
   return {foot(first), foot(last)};
 }
 
-/// Stretches on one straight line become one: corners between houses of a row must not cut their facade.
+/// Stretches on one straight line become one: corners between houses of a row must not cut their facade. Chords of a
+/// curve bend, however little from one to the next.
 auto joined(const std::vector<Stretch>& stretches, const Options& o) -> std::vector<Stretch> {
   std::vector<Stretch> out;
   std::vector<Stretch> row;  // what the last one is made of
   for (const auto& next : stretches) {
-    if (!out.empty() && next.from - out.back().to < o.footprint_rest) {
+    const bool bends = !out.empty() && next.curve > 0 && next.curve == row.back().curve;
+    if (!out.empty() && !bends && next.from - out.back().to < o.footprint_rest) {
       auto longer = row;
       longer.push_back(next);
       const Segment2 line = line_through(longer);
@@ -332,6 +336,69 @@ auto joined(const std::vector<Stretch>& stretches, const Options& o) -> std::vec
   return out;
 }
 
+/// The chords of a curve of a footprint, as edges_of_footprints gives them.
+using Curve = std::vector<std::size_t>;
+auto curves_of_footprints(const block::Block& block) -> std::vector<Curve> {
+  std::vector<Curve> out;
+  std::size_t edges = 0;
+  const auto add = [&](const geometry::Ring& ring) {
+    std::vector<std::optional<std::size_t>> number(ring.size());
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      if (span(Segment2{ring[(i + 1) % ring.size()], ring[i]}) > 0) number[i] = edges++;
+    for (const auto& arc : geometry::arcs_of(ring)) {
+      auto& curve = out.emplace_back();
+      for (std::size_t k = 0; k < arc.count; ++k)
+        if (const auto edge = number[(arc.first + k) % ring.size()]) curve.push_back(*edge);
+    }
+  };
+  for (const auto& member : block.members) {
+    for (const auto& polygon : member.polygons) {
+      add(polygon.outer);
+      for (const auto& hole : polygon.holes) add(hole);
+    }
+  }
+  return out;
+}
+
+/// A sweep-edge, or a piece of one, and the curve of a footprint that it was put on.
+struct Placed {
+  SweepEdge edge;
+  std::size_t curve = 0;  // from 1
+};
+
+/// A curve is one side: where walls were seen along half of it, they are along all of it, chord by chord, and what else
+/// was seen as near to it is of the same wall. Pieces by themselves would cut its chords beside their corners.
+void complete(const Curve& curve, std::size_t number, const std::vector<Segment2>& footprints, const Options& o,
+              std::vector<Placed>& placed) {
+  constexpr double seen_share = 0.5;
+  double length = 0, seen = 0, area = 0;
+  for (const auto chord : curve) length += span(footprints[chord]);
+  SweepEdge of_most;
+  for (const auto& piece : placed) {
+    if (piece.curve != number) continue;
+    if (!(seen > 0) || piece.edge.area > of_most.area) of_most = piece.edge;
+    seen += span(piece.edge.segment);
+    area += piece.edge.area;
+  }
+  if (!(seen >= seen_share * length)) return;
+  const auto is_along = [&](const Segment2& s) {
+    return std::ranges::any_of(curve, [&](std::size_t chord) {
+      const Segment2& c = footprints[chord];
+      return dot(normalised(c.end - c.start), normalised(s.end - s.start)) >= o.footprint_cosine &&
+             std::min(distance(c, s.start), distance(c, s.end)) <= o.gis_inward;
+    });
+  };
+  std::erase_if(placed, [&](const Placed& piece) {
+    return piece.curve == number || (piece.curve == 0 && is_along(piece.edge.segment));
+  });
+  for (const auto chord : curve) {
+    SweepEdge edge = of_most;
+    edge.segment = footprints[chord];
+    edge.area = area * span(edge.segment) / length;
+    placed.push_back({edge, number});
+  }
+}
+
 }  // namespace
 
 auto edges_of_footprints(const block::Block& block, const Registration& registration) -> std::vector<Segment2> {
@@ -345,38 +412,48 @@ auto put_on_footprints(const std::vector<SweepEdge>& edges, const block::Block& 
                        const Options& o) -> std::vector<SweepEdge> {
   if (!(o.gis_offset > 0)) return edges;
   const auto footprints = edges_of_footprints(block, registration);
+  const auto curves = curves_of_footprints(block);
+  std::vector<std::size_t> curve_of(footprints.size(), 0);
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    for (const auto chord : curves[c]) curve_of[chord] = c + 1;
   const LineIndex index(footprints, 8);
 
-  std::vector<SweepEdge> result;
+  std::vector<Placed> placed;
   for (const auto& edge : edges) {
     const Segment2& s = edge.segment;
     const double l = span(s);
     std::vector<Stretch> found;
     for (const auto k : index.near(geometry::Box2::of(s).grown(o.gis_offset)))
-      if (const auto stretch = follows(s, footprints[k], o)) found.push_back(*stretch);
+      if (auto stretch = follows(s, footprints[k], o)) {
+        stretch->curve = curve_of[k];
+        found.push_back(*stretch);
+      }
     found = joined(without_overlaps(std::move(found), o), o);
-    const auto add = [&](const Segment2& at) {
+    const auto add = [&](const Segment2& at, std::size_t curve) {
       SweepEdge piece = edge;
       piece.segment = at;
       piece.area = edge.area * std::min(1.0, span(at) / l);
-      result.push_back(piece);
+      placed.push_back({piece, curve});
     };
     if (found.empty()) {
-      result.push_back(edge);
+      placed.push_back({edge});
       continue;
     }
     const Point2 d = normalised(s.end - s.start);
     const auto add_rest = [&](double from, double to) {
-      if (to - from >= o.footprint_rest) add({s.start + from * d, s.start + to * d});
+      if (to - from >= o.footprint_rest) add({s.start + from * d, s.start + to * d}, 0);
     };
     double reached = 0;
     for (const auto& stretch : found) {
       add_rest(reached, stretch.from);
-      add(stretch.on);
+      add(stretch.on, stretch.curve);
       reached = stretch.to;
     }
     add_rest(reached, l);
   }
+  for (std::size_t c = 0; c < curves.size(); ++c) complete(curves[c], c + 1, footprints, o, placed);
+  std::vector<SweepEdge> result;
+  for (auto& piece : placed) result.push_back(std::move(piece.edge));
   return result;
 }
 
