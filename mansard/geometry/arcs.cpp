@@ -12,12 +12,12 @@ namespace {
 
 constexpr double degrees = std::numbers::pi / 180;
 constexpr double most_turn = 50 * degrees, least_turn = 0.2 * degrees, least_bend = 30 * degrees;
-constexpr double most_ratio = 3;         // of the lengths of neighbouring chords: a chamfered square is no circle
-constexpr std::size_t fewest = 4;        // chords
-constexpr double exactness = 0.02;       // m
+constexpr double most_ratio = 3;       // of the lengths of neighbouring chords: a chamfered square is no circle
+constexpr std::size_t fewest = 4;      // chords
+constexpr double exactness = 0.02;     // m
 constexpr double share_of_height = 1;  // of the curve's height over its chords
 
-/// The greatest distance of points from the circle that suits them best (I. Kåsa, A circle fitting procedure and its
+/// The maximum distance of points from the circle that suits them best (I. Kåsa, A circle fitting procedure and its
 /// error analysis, 1976); infinite where none does.
 auto off_circle(std::span<const Point2> points) -> double {
   const auto n = static_cast<double>(points.size());
@@ -96,7 +96,7 @@ auto arcs_of(const Ring& ring) -> std::vector<Arc> {
   std::vector<Arc> out;
   bool has_begin = false;
   for (std::size_t i = 0; i < m; ++i) {
-    std::size_t last = (i + 1) % m;  // the corner after the first chord
+    std::size_t last = (i + 1) % m;                           // the corner after the first chord
     const bool bends_back = joins[i] && !same_side(i, last);  // the chord from i ends another curve
     if (!joins[last] || (joins[i] && !bends_back)) continue;
     has_begin = true;

@@ -1,4 +1,4 @@
-// Runs of edges that stand for a curve: chords of a circle, an ellipse, or another line that bends steadily.
+// Runs of edges that represent a curve: chords of a circle, an ellipse, or another line that bends steadily.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ struct Arc {
   std::size_t count = 0;  ///< edges; of a whole ring all of them, beginning with edge 0
 };
 
-/// The curves of a ring, in the order of their first edges. Chords of a curve are at least four; each turns from the one
-/// before to the same side, by at most 50° (an octagon's turn by 45°), is at most three times as long, and all
+/// The curves of a ring, in the order of their first edges. Chords of a curve are at least four; each turns from the
+/// one before to the same side, by at most 50° (an octagon's turn by 45°), is at most three times as long, and all
 /// together turn by at least 30°. Corners of any four chords in a row are nearer to a circle than the height of the
 /// curve over its chords, or 2 cm, which is how exactly most surveys give corners. Corners at which nothing turns
 /// are part of their chord. Cost: O(n).

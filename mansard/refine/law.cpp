@@ -40,6 +40,10 @@ constexpr double stray = 10;
 /// the roof; where an edge was sampled beside its place, the difference is the height of the wall and says nothing.
 constexpr double weight_of_rounded = 0.2, weight_of_rough = 0.05;
 
+/// Standard deviations of the noise: over as much as that, spread about their middle, twelve samples show a slope to
+/// one in twenty. And m: of three rows of samples half a metre wide, and what suffices in every scan.
+constexpr double spread_of_slope = 6, least_spread = 0.1, most_spread = 0.25;
+
 /// m: what is left between lines and samples without noise: coordinates have single precision in many files.
 constexpr double least_robust = 0.02;
 
@@ -85,6 +89,7 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.samples.melt = std::clamp(reach * edge, o.grid / 2, most_melt);  // a sample is of all of its cell
   o.samples.blur = std::min(most_blur, edge);
   o.lines.robust = std::max(least_robust, reach * scan.noise);
+  o.lines.min_spread = std::clamp(spread_of_slope * scan.noise, least_spread, most_spread);
 
   // What is smaller than the scan can show is neither proposed nor made. An edge between two samples is known to a
   // twelfth of their squared distance; without noise the triangles' own edges are those of the surface.

@@ -49,12 +49,6 @@ void add_objective(OptionList& list, Options& o) {
       .source(decision_137);
 }
 
-void add_lines(OptionList& list, Options::Lines& o) {
-  list.number("lines_min_spread", o.min_spread, "m", length,
-              "A slope is fitted only where the samples' standard deviation along the slope is at least this.")
-      .advanced(by_hand);
-}
-
 void add_forms(OptionList& list, Options::Forms& o) {
   list.number("forms_min_height", o.min_height, "m", {0.01, 100},
               "Minimum height of a proposed wall or cap above the base.")
@@ -260,7 +254,6 @@ void add_surfaces(OptionList& list, Options::Surfaces& o) {
 auto option_list(Options& o) -> OptionList {
   OptionList list("refine");
   add_objective(list, o);
-  add_lines(list, o.lines);
   add_forms(list, o.forms);
   add_mansard(list, o.mansard);
   add_setback(list, o.setback);

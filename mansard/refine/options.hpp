@@ -51,7 +51,7 @@ struct Options {
     std::int64_t rounds = 8;
     /// A line is fitted to at least this many samples; each side of a split has as many. Chosen by hand; not measured.
     std::int64_t min_samples = 12;
-    double min_spread = 0.25;  ///< m
+    double min_spread = 0.25;  ///< m; no option: decided_by
   } lines;
 
   /// The forms of roof that every part is tried with (forms).

@@ -110,10 +110,10 @@ TEST(Arcs, keep_corners_that_parts_put_on_their_chords) {
 }
 
 TEST(Arcs, are_not_in_what_has_corners) {
-  EXPECT_EQ(edges({{0, 0}, {10, 0}, {10, 8}, {0, 8}}), 0U);                                            // a house
-  EXPECT_EQ(edges({{1, 0}, {9, 0}, {10, 1}, {10, 7}, {9, 8}, {1, 8}, {0, 7}, {0, 1}}), 0U);            // chamfered
-  EXPECT_EQ(edges({{0, 0}, {10, 0}, {11, 1}, {13, 1}, {14, 0}, {20, 0}, {20, 9}, {0, 9}}), 0U);        // a bay
-  EXPECT_EQ(edges({{0, 0}, {20, 0.5}, {40, 0}, {60, -1}, {60, 10}, {40, 12}, {20, 11}, {0, 10}}), 0U); // a row, bent
+  EXPECT_EQ(edges({{0, 0}, {10, 0}, {10, 8}, {0, 8}}), 0U);                                             // a house
+  EXPECT_EQ(edges({{1, 0}, {9, 0}, {10, 1}, {10, 7}, {9, 8}, {1, 8}, {0, 7}, {0, 1}}), 0U);             // chamfered
+  EXPECT_EQ(edges({{0, 0}, {10, 0}, {11, 1}, {13, 1}, {14, 0}, {20, 0}, {20, 9}, {0, 9}}), 0U);         // a bay
+  EXPECT_EQ(edges({{0, 0}, {20, 0.5}, {40, 0}, {60, -1}, {60, 10}, {40, 12}, {20, 11}, {0, 10}}), 0U);  // a row, bent
   EXPECT_EQ(edges({}), 0U);
 }
 

@@ -43,9 +43,7 @@ auto dome(double radius) -> Profile {
   }
   return out;
 }
-auto draft_of(const Plan& truth) -> refine::Draft {
-  return {0, all_alike(truth.outer.points, wall(6), 6), {6}, {}};
-}
+auto draft_of(const Plan& truth) -> refine::Draft { return {0, all_alike(truth.outer.points, wall(6), 6), {6}, {}}; }
 auto refined(const Plan& truth, double noise) -> refine::Part {
   model::Accuracy accuracy;
   accuracy.noise = 0.03, accuracy.correlated_area = 0.5;

@@ -30,8 +30,7 @@ auto corners_of(const Ring& ring, double tangent) -> std::vector<bool> {
   std::vector<bool> out(n);
   for (std::size_t i = 0; i < n; ++i) out[i] = turns(ring, i, tangent);
   for (const auto& arc : geometry::arcs_of(ring)) {
-    for (std::size_t k = 0; k <= arc.count; ++k)
-      out[(arc.first + k) % n] = arc.count < n && (k == 0 || k == arc.count);
+    for (std::size_t k = 0; k <= arc.count; ++k) out[(arc.first + k) % n] = arc.count < n && (k == 0 || k == arc.count);
   }
   return out;
 }

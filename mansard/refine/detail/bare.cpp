@@ -54,12 +54,13 @@ auto carried(const model::Solid& solid, const FaceStrips& strips, const View& vi
     if (!steep[f]) continue;
     const std::size_t column = cell % grid.columns, row = cell / grid.columns;
     if (column == 0 || row == 0 || column + 1 == grid.columns || row + 1 == grid.rows) continue;
-    const auto same = [&](std::size_t other) { 
+    const auto same = [&](std::size_t other) {
       return !std::isnan(view.z[other]) && strips.of_face[view.face[other]] == strips.of_face[f];
     };
     if (!same(cell - 1) || !same(cell + 1) || !same(cell - grid.columns) || !same(cell + grid.columns)) continue;
     const double upright = solid.faces[f].normal.z;
-    if (std::abs(view.z_of(site, i) - site.z[i]) * upright <= noise) out[strips.of_face[f]] += site.sample_area / upright;
+    if (std::abs(view.z_of(site, i) - site.z[i]) * upright <= noise)
+      out[strips.of_face[f]] += site.sample_area / upright;
   }
   return out;
 }

@@ -189,8 +189,8 @@ auto profile_through(const std::vector<RoofLine>& lines) -> std::optional<Profil
 
 /// A roof that bends to one side, as barrels and domes do: the fewest pitches, three at least, from which it is no
 /// farther on average than half of the smallest detail, or whose further pitches would not pay. What more pitches than
-/// the most do not explain is noise; where that is more than a roof's noise and the smallest detail, it is no such roof.
-/// Cost: O(looks log looks + pitches · places²).
+/// the most do not explain is noise; where that is more than a roof's noise and the smallest detail, it is no such
+/// roof. Cost: O(looks log looks + pitches · places²).
 auto bent_line(std::vector<Look> looks, double area_of_look, const Options& options) -> std::optional<Profile> {
   constexpr std::size_t fewest_pitches = 3, most_pitches = 12;
   constexpr std::size_t most_places = 96;  // at which a pitch may end: eight for each

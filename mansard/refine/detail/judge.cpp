@@ -38,8 +38,8 @@ void losses_of(std::size_t count, const Kernel& kernel, const std::array<const d
   }
 }
 
-/// Chords of a curve are one edge. A wall within a profile is said with the level before it, which ends there: it has no
-/// numbers of its own.
+/// Chords of a curve are one edge. A wall within a profile is said with the level before it, which ends there: it has
+/// no numbers of its own.
 auto priced_faces(const model::Plan& plan, const model::Solid& sketch) -> double {
   const auto strips = strips_of(plan, sketch);
   std::vector<bool> priced(strips.count, false);

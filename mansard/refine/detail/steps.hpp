@@ -8,7 +8,8 @@
 
 namespace mansard::refine::detail {
 
-/// The plan with another profile on one edge, or on all chords of the curve that it is part of; a profile that other edges carry too stays theirs.
+/// The plan with another profile on one edge, or on all chords of the curve that it is part of; a profile that other
+/// edges carry too stays theirs.
 [[nodiscard]] auto carrying(const model::Plan& plan, std::uint32_t ring, std::uint32_t edge, model::Profile profile)
     -> model::Plan;
 

@@ -40,8 +40,8 @@ auto strips_of(const model::Plan& plan, const model::Solid& solid) -> FaceStrips
       const auto& of = curve_of_edge[ring];
       if (!of.empty() && of[edge] != none) {
         const auto profile = (ring == 0 ? plan.outer : plan.holes[ring - 1]).profile_of_edge[edge];
-        out.of_face[f] =
-            known.try_emplace({of[edge], profile, part, static_cast<std::uint32_t>(face.kind)}, out.count).first->second;
+        out.of_face[f] = known.try_emplace({of[edge], profile, part, static_cast<std::uint32_t>(face.kind)}, out.count)
+                             .first->second;
       }
     }
     if (out.of_face[f] == out.count) ++out.count;

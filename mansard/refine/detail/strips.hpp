@@ -10,7 +10,7 @@
 namespace mansard::refine::detail {
 
 /// Per face of a plan's solid the number of its strip, from 0. The chords of a curve (geometry::arcs_of) that have one
-/// profile stand for one edge, and what a pitch of that profile makes along them is one strip. Any other face is a
+/// profile are one side, and what a pitch of that profile makes along them is one strip. Any other face is a
 /// strip of its own.
 struct FaceStrips {
   std::vector<std::uint32_t> of_face;

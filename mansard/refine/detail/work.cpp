@@ -116,15 +116,14 @@ auto Work::misfit_between(const Piece& a, const Piece& b) const -> double {
 }
 
 auto Work::may_cut_anew(const Piece& a, const Piece& b) const -> bool {
-  return misfit_between(a, b) >= std::max(options_.part_price, worth_a_seam * (a.roof.misfit + b.roof.misfit));
+  return misfit_between(a, b) >= std::max(options_.face_price, worth_a_seam * (a.roof.misfit + b.roof.misfit));
 }
 
 /// Where two pieces meet in the wrong place: both as one, cut anew, if that is cheaper.
 auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> std::vector<Piece> {
-  const double least_gain = options_.part_price;
   const Piece one{
       std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, both.roof, std::nullopt, {}};
-  const double worth = cost_of(a, b) - least_gain;
+  const double worth = cost_of(a, b) - options_.face_price;
   std::vector<Proposal> seams;
   for (const Piece* piece : {&a, &b}) {
     auto moved = at_steps(both.polygon, piece->site.polygon, one.site.measured, options_);
@@ -132,7 +131,7 @@ auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> 
       seams.push_back({std::move(*moved), misfit_between(a, b), 0, "its wall where the scan has it", false});
   }
   auto pieces = cheapest(one, seams, worth);
-  return pieces.empty() ? cut_within(one, least_gain, worth) : pieces;
+  return pieces.empty() ? cut_within(one, options_.face_price, worth) : pieces;
 }
 
 /// Of the proposed cuts the one whose pieces cost least, if that is less than they are worth.
@@ -239,14 +238,14 @@ auto Work::as_one(const Piece& a, const Piece& b, const Union& both) const -> st
   return std::move(*made);
 }
 
-/// m²·m²: of the squared differences above a step, those along the other's ground.
+/// m²·m²: of the squared differences that are not noise, those along the other's ground.
 auto Work::misfit_near(const Piece& piece, const geometry::Polygon& other) const -> double {
   const auto& site = piece.site;
   const Judge judge = judge_of(site);
   double sum = 0;
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     const double d = std::abs(piece.roof.view.z_of(site, i) - site.z[i]);
-    if (!(d > options_.cuts.min_step)) continue;
+    if (!(d > options_.lines.robust)) continue;
     if (geometry::boundary_distance(other, site.places[i]) < options_.joins.recut_reach)
       sum += site.of_points ? judge.reducible_at(piece.roof, i) : d * std::min(d, options_.robust);
   }

@@ -235,9 +235,9 @@ namespace {
 
 /// A stretch of a sweep-edge that follows a footprint's edge.
 struct Stretch {
-  double away;      // m, mean distance
-  double from, to;  // m along the sweep-edge
-  Segment2 on;      // of the footprint's edge
+  double away;            // m, mean distance
+  double from, to;        // m along the sweep-edge
+  Segment2 on;            // of the footprint's edge
   std::size_t curve = 0;  // that the footprint's edge is a chord of, from 1
 };
 
