@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reconstructs scans of known and unlike accuracy with default options and prints the tables of docs/results.md, "The scan, measured".
+"""Reconstructs scans of known and unlike accuracy with default options and prints the first two tables of docs/results/scans.md.
 
 usage: tools/accuracy.py DATA OUT     DATA: the folder with airborne, sim_rotterdam, delft, mvs_buildings, zhongshan
 The program is $MANSARD, else build/release/bin/mansard.

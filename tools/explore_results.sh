@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Table 1 of docs/results.md as Markdown: the six real inputs, then five simulated blocks, which are made first.
+# Counts, errors and times of the stages as a table in Markdown: the six real inputs, then five simulated blocks, which are made first.
 # usage: tools/explore_results.sh DATA OUT [mansard options…]     (DATA: the folder with mvs_buildings, delft, zhongshan, …)
 set -euo pipefail
 data=$1 out=$2

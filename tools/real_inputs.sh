@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the six real inputs of docs/results.md and prints their table.
+# Runs the six real inputs of docs/results/scans.md and prints their table.
 # usage: tools/real_inputs.sh DATA OUT [mansard options…]     (DATA: the folder with mvs_buildings, delft, zhongshan, …)
 set -euo pipefail
 data=$1 out=$2

@@ -128,7 +128,7 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("Delft at several densities; docs/robustness.md")
       .number("points_per_large_cell", o.points_per_large_cell, "", {0.1, 1000},
               "Minimum density of points that a cell of 1 m or more must hold.")
-      .advanced("Delft and two simulated blocks with 2 points/m²; docs/results.md")
+      .advanced("Delft and two simulated blocks with 2 points/m², November 2026")
       .number("minimum_cell", o.minimum_cell, "m", {0.0625, 16},
               "Minimum side length of a cell taken from the density.")
       .advanced("walls are half-way between cells; smaller cells cost time")

@@ -56,7 +56,7 @@ foreach(sample IN LISTS samples)
     list(APPEND complaints "data/README.md does not name `${sample}`")
   endif()
 endforeach()
-file(GLOB documents RELATIVE ${ROOT} ${ROOT}/*.md ${ROOT}/docs/*.md ${ROOT}/docs/decisions/*.md ${ROOT}/docs/tutorials/*.md
+file(GLOB documents RELATIVE ${ROOT} ${ROOT}/*.md ${ROOT}/docs/*.md ${ROOT}/docs/decisions/*.md ${ROOT}/docs/tutorials/*.md ${ROOT}/docs/results/*.md
   ${ROOT}/data/*.md)
 foreach(document IN LISTS documents)
   file(READ ${ROOT}/${document} text)

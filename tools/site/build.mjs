@@ -46,7 +46,7 @@ const titles = {
 const front = "docs/tutorials/your_data.md";
 const docs = (...names) => names.map((name) => `docs/${name}.md`).filter(there);
 const top = [
-  ["Start", [front, "README.md", ...docs("packaging"), "data/README.md"]],
+  ["Start", [front, "README.md", ...docs("packaging"), "data/README.md", ...docs("glossary")]],
   ["Tutorials", in_folder("docs/tutorials", "one_house.md", "one_block.md", "one_city.md", "lidar_tile.md", "textured_city.md", "whole_city.md").filter((name) => name !== front)],
   ["Formats", docs("ingest", "formats")],
   ["Options", ["options.html", "attributes.html", "codes.html"]],
@@ -54,7 +54,8 @@ const top = [
   ["A whole city", docs("city")],
   ["Python, QGIS, Blender", docs("python", "qgis", "blender")],
   ["Workbench", docs("workbench", "serve")],
-  ["Results", docs("results", "robustness", "hostile", "bench", "comparison")],
+  ["Results", [...docs("results"), ...in_folder("docs/results", "scans.md", "shapes.md", "features.md", "validators.md", "time.md"),
+    ...docs("comparison", "robustness", "worst", "cost", "hostile", "bench")]],
 ];
 const placed = new Set([...top.flatMap(([, names]) => names), ...module_pages]);
 const other_pages = in_folder("docs").filter((name) => !placed.has(name));
