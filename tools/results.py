@@ -32,7 +32,7 @@ REAL = {"delft": "Delft: airborne laser scan, as a mesh without walls", "hall": 
 # were sampled from them with 10 and 40 points/m², mean of five clouds, worst and best of its settings.
 # MSE over the footprints, m²; median, m; recall and precision of roof planes; CPU s.
 ROOFER = {"20": ([0.351], [0.004], (0.87, 0.96), [2.6]), "8": ([0.580], [0.006], (0.82, 0.98), [1.4]),
-          "3": ([1.641], [0.008], (0.58, 0.98), [0.7]), "photogrammetric": ([0.62, 0.36], [0.095, 0.093], None, [3.8, 1.7])}
+          "3": ([1.641], [0.008], (0.58, 0.98), [0.7]), "photogrammetric": ([0.62, 0.36], [0.095, 0.093], (), [3.8, 1.7])}
 # MSE 0.75 m inside of the footprints, m².
 ROOFER_INSIDE = {"zhongshan-L19": [10.7, 2.1], "hall": [0.38, 0.15], "b9": [0.42, 0.15]}
 
@@ -64,9 +64,13 @@ def validate(out):
     (out / "valid.json").write_text(json.dumps({"buildings": buildings, "valid": valid}), encoding="utf-8")
 
 
-def rmse(values, digits=2):
-    """Root mean square of mean squares; of the worst and best of several, both."""
-    return "–" if values is None else " to ".join(f"{value ** 0.5:.{digits}f}" for value in values)
+def both(theirs, ours, digits, most_is_best=False):
+    """What roofer and mansard have, the better one bold; of several settings of roofer, the worst to the best."""
+    shown = [f"{value:.{digits}f}" for value in theirs]
+    best = f"{ours:.{digits}f}"
+    rank = [float(value) * (-1 if most_is_best else 1) for value in (shown[-1], best)] if shown else [0, 0]
+    bold = lambda text, is_best: f"**{text}**" if is_best else text
+    return (" to ".join(shown[:-1] + [bold(shown[-1], rank[0] < rank[1])]) if shown else "–") + " / " + bold(best, rank[1] < rank[0])
 
 
 def table(header, rows):
@@ -86,13 +90,15 @@ def peers(found):
     for name, title in OF_TRUTH.items():
         report, run = found[name]
         truth, planes = report["truth"], report["truth"]["form"]["planes"]
-        mse, median, of_planes, cpu = ROOFER.get(name, (None, None, None, None))
-        rows.append([title, rmse([truth["prism"]["footprint_mse_m2"]]), rmse(mse), f'**{rmse([truth["scores"]["footprint_mse_m2"]])}**',
-                     "–" if median is None else " to ".join(f"{m:.3f}" for m in median), f'{truth["scores"]["footprint_median_absolute_m"]:.3f}',
-                     "–" if of_planes is None else f"{of_planes[0]:.2f}, {of_planes[1]:.2f}", f'{planes["recall"]:.2f}, {planes["precision"]:.2f}',
-                     "–" if cpu is None else " to ".join(f"{c:.1f}" for c in cpu), f'{run["times"]["cpu_seconds"]:.1f}'])
-    return table(["29 houses, against the truth", "RMSE, m: prism", "roofer", "mansard", "median error, m: roofer", "mansard",
-                  "roof planes found, right: roofer", "mansard", "CPU s: roofer", "mansard"], rows)
+        mse, median, of_planes, cpu = ROOFER.get(name, ([], [], [], []))
+        rows.append([title, both([m ** 0.5 for m in mse], truth["scores"]["footprint_mse_m2"] ** 0.5, 2),
+                     both(median, truth["scores"]["footprint_median_absolute_m"], 3),
+                     both(of_planes[:1], planes["recall"], 2, True), both(of_planes[1:], planes["precision"], 2, True),
+                     both(cpu, run["times"]["cpu_seconds"], 1)])
+    prisms = [found[name][0]["truth"]["prism"]["footprint_mse_m2"] ** 0.5 for name in OF_TRUTH]
+    header = ["roofer / mansard, 29 houses against the truth", "RMSE, m", "median error, m", "planes found", "planes right", "CPU s"]
+    low, high = f"{min(prisms):.1f}", f"{max(prisms):.1f}"
+    return table(header, rows) + "\n\nThe RMSE of prisms is " + (low if low == high else f"{low} to {high}") + " m."
 
 
 def real(found):
@@ -100,9 +106,30 @@ def real(found):
     for name, title in REAL.items():
         report, run = found[name]
         scores = report["scores"]
-        rows.append([title, run["counts"]["full"], rmse([report["prism"]["inside_each"]["mse_m2"]]), rmse(ROOFER_INSIDE.get(name)),
-                     f'**{rmse([scores["inside"]["mse_m2"]])}**', f'{scores["footprint_median_absolute_m"]:.3f}', f'{run["times"]["cpu_seconds"]:.1f}'])
-    return table(["real scans, against the scan", "models", "RMSE, m: prism", "roofer", "mansard", "median error, m", "CPU s"], rows)
+        rows.append([title, run["counts"]["full"], f'{report["prism"]["inside_each"]["mse_m2"] ** 0.5:.2f} / '
+                     + both([m ** 0.5 for m in ROOFER_INSIDE.get(name, [])], scores["inside"]["mse_m2"] ** 0.5, 2),
+                     f'{scores["footprint_median_absolute_m"]:.3f}', f'{run["times"]["cpu_seconds"]:.1f}'])
+    return table(["real scans, against the scan", "models", "RMSE, m: prism / roofer / mansard", "median error, m", "CPU s"], rows)
+
+
+def chart(found):
+    """The first column of the first table as bars."""
+    left, width, row, bar = 190, 430, 52, 18
+    names = [name for name in OF_TRUTH if name in ROOFER]
+    scale = width / max(m ** 0.5 for name in names for m in ROOFER[name][0])
+    text = lambda x, y, words, more="": f'<text x="{x:.0f}" y="{y}"{more}>{words}</text>'
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="760" height="{row * len(names) + 44}" font-family="sans-serif" font-size="14" fill="#222">',
+           '<rect width="100%" height="100%" fill="#fff"/>']
+    for i, name in enumerate(names):
+        y = 10 + i * row
+        out.append(text(left - 10, y + bar + 5, OF_TRUTH[name], ' text-anchor="end"'))
+        bars = [("roofer", ROOFER[name][0][-1], "#9aa5b1"), ("mansard", found[name][0]["truth"]["scores"]["footprint_mse_m2"], "#c2553f")]
+        for k, (program, mse, colour) in enumerate(bars):
+            at, long = y + k * (bar + 2), mse ** 0.5 * scale
+            out += [f'<rect x="{left}" y="{at}" width="{long:.0f}" height="{bar}" fill="{colour}"/>',
+                    text(left + long + 6, at + 14, f"{program} {mse ** 0.5:.2f} m")]
+    out += [text(left, row * len(names) + 30, "RMSE over the footprints of 29 houses, m; of roofer the best setting", ' fill="#555"'), "</svg>"]
+    (ROOT / "docs/pictures/results.svg").write_text("\n".join(out) + "\n", encoding="utf-8")
 
 
 def valid(out):
@@ -165,6 +192,7 @@ def main():
     fill("docs/results.md", {"date": date, "peers": peers(found), "real": real(found), "valid": valid(out)})
     fill("docs/results/scans.md", {"date": date, "truth": truth, "scan": scan, "form": form(found)})
     fill("docs/results/shapes.md", {"date": date, "shapes": (out / "shapes.md").read_text(encoding="utf-8")})
+    chart(found)
     draw(out / "street")
 
 
