@@ -57,7 +57,21 @@ def shapes():
     gambrel = lambda d: 5 + 1.8 * d if d < 1.5 else 7.7 + 0.5 * (d - 1.5)
     hall, tower, dome = box(0, 0, 30, 18), box(8, 6, 14, 12), circle(10, 10, 8)
     apse = [(0, 0)] + arc(20, 5, 5, 12, -TAU / 4, TAU / 4) + [(0, 10)]
+    pitch = lambda d: 6 + 0.8 * d
+    wings = [(0, 0), (14, 0), (14, 8), (8, 8), (8, 15), (0, 15)]
+    main, annex = box(0, 0, 12, 8), box(12, 0, 15, 4)
+    cut = [(0, 0), (12, 0), (12, 6), (10, 8), (0, 8)]
     return {
+        "half hip": [(main, [], lambda x, y: min(pitch(min(y, 8 - y)), 7.6 + 0.8 * min(x, 12 - x)))],
+        "gablet": [(box(*sides), [], lambda x, y: pitch(min(y, 8 - y) if 2 <= x <= 10 else min(x, 12 - x, y, 8 - y)))
+                   for sides in [(0, 0, 2, 8), (2, 0, 10, 8), (10, 0, 12, 8)]],
+        "two heights of eaves": [(main, [], lambda x, y: min(6 + 0.8 * y, 4 + 0.7 * (8 - y)))],
+        "shed against a wall": [(main, [], lambda x, y: pitch(min(y, 8 - y))), (box(0, 8, 12, 11), [], lambda x, y: 3 + 0.4 * (11 - y))],
+        "hip beside an annex": [(main, [], lambda x, y: pitch(min(x, 12 - x, y, 8 - y))), (annex, [], lambda x, y: 3.5)],
+        "hipped L": [(wings, [], lambda x, y: pitch(max(min(x, 14 - x, y, 8 - y), min(x, 8 - x, y, 15 - y))))],
+        "gabled L": [(wings, [], lambda x, y: pitch(max(min(y, 8 - y), min(x, 8 - x) if y > 4 else 0)))],
+        "hip with a chamfer": [(cut, [], lambda x, y: pitch(min(x, 12 - x, y, 8 - y, (18 - x - y) / math.sqrt(2))))],
+        "gable on a splayed plot": [([(0, 0), (14, 0), (14, 9), (0, 8)], [], lambda x, y: min(pitch(y), pitch(8 - y)))],
         "gable": [(box(0, 0, 12, 4), [], lambda x, y: 6 + 0.8 * y), (box(0, 4, 12, 8), [], lambda x, y: 6 + 0.8 * (8 - y))],
         "monopitch": [(box(0, 0, 10, 7), [], lambda x, y: 4 + 0.35 * y)],
         "gambrel": [(box(0, a, 14, b), [], lambda x, y: gambrel(min(y, 9 - y))) for a, b in [(0, 1.5), (1.5, 4.5), (4.5, 7.5), (7.5, 9)]],

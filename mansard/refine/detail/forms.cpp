@@ -138,12 +138,16 @@ auto common_line(std::span<const Look> looks, const Options::Lines& options) -> 
   return line_through(looks, {mean / static_cast<double>(looks.size()), 0}, options);
 }
 
+auto by_distance(std::vector<Look> looks) -> std::vector<Look> {
+  std::ranges::stable_sort(looks, {}, &Look::inward);
+  return looks;
+}
+
 /// A steep roof and a flatter one above it, of whatever distance from the sides parts them best. A melted corner, or a
-/// wall behind the outline, looks the same but for its size.
-auto mansard_line(std::vector<Look> looks, const Options& options) -> std::optional<Profile> {
+/// wall behind the outline, looks the same but for its size. `looks` by their distance.
+auto mansard_line(std::span<const Look> looks, const Options& options) -> std::optional<Profile> {
   const auto& mansard = options.mansard;
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
-  std::ranges::stable_sort(looks, {}, &Look::inward);
   const auto sums = sums_along(looks);
   std::size_t best = 0;
   double least = sums.back().residual();
@@ -157,8 +161,8 @@ auto mansard_line(std::vector<Look> looks, const Options& options) -> std::optio
     }
   }
   if (best == 0) return std::nullopt;
-  const std::span<const Look> all(looks);
-  const auto lower = common_line(all.first(best), options.lines), upper = common_line(all.subspan(best), options.lines);
+  const auto lower = common_line(looks.first(best), options.lines),
+             upper = common_line(looks.subspan(best), options.lines);
   if (!lower || !upper || lower->slope < mansard.min_slope || lower->slope > options.forms.max_slope)
     return std::nullopt;
   const double slope = std::max(options.forms.min_slope, upper->slope);
@@ -190,18 +194,23 @@ auto profile_through(const std::vector<RoofLine>& lines) -> std::optional<Profil
 /// A roof that bends to one side, as barrels and domes do: the fewest pitches, three at least, from which it is no
 /// farther on average than half of the smallest detail, or whose further pitches would not pay. What more pitches than
 /// the most do not explain is noise; where that is more than a roof's noise and the smallest detail, it is no such
-/// roof. Cost: O(looks log looks + pitches · places²).
-auto bent_line(std::vector<Look> looks, double area_of_look, const Options& options) -> std::optional<Profile> {
+/// roof. `looks` by their distance. Cost: O(looks), and O(pitches · places²) where it may be such a roof.
+auto bent_line(std::span<const Look> looks, double area_of_look, const Options& options) -> std::optional<Profile> {
   constexpr std::size_t fewest_pitches = 3, most_pitches = 12;
   constexpr std::size_t most_places = 96;  // at which a pitch may end: eight for each
   constexpr double of_detail = 0.5;
-  std::ranges::stable_sort(looks, {}, &Look::inward);
   const auto sums = sums_along(looks);
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   const std::size_t places = std::min(most_places, looks.size() / fewest);
   if (places < fewest_pitches) return std::nullopt;
   const auto place = [&](std::size_t i) { return i * looks.size() / places; };
   const auto between = [&](std::size_t i, std::size_t j) { return sums[place(j)] - sums[place(i)]; };
+  const double weight = sums.back().weight, wanted = of_detail * options.detail,
+               most_noise = std::max(options.detail, options.lines.robust);
+  if (sums.back().residual() <= wanted * wanted * weight) return std::nullopt;  // it does not bend
+  double in_places = 0;
+  for (std::size_t i = 0; i < places; ++i) in_places += between(i, i + 1).residual();
+  if (in_places > most_noise * most_noise * weight) return std::nullopt;
   std::vector<std::vector<double>> own(places + 1, std::vector<double>(places + 1, 0));
   for (std::size_t i = 0; i < places; ++i)
     for (std::size_t j = i + 1; j <= places; ++j) own[i][j] = between(i, j).residual();
@@ -214,13 +223,11 @@ auto bent_line(std::vector<Look> looks, double area_of_look, const Options& opti
       for (std::size_t i = k; i < j; ++i)
         if (const double sum = least[k - 1][i] + own[i][j]; sum < least[k][j]) least[k][j] = sum, from[k][j] = i;
   }
-  const double noise = least.back()[places], weight = sums.back().weight;
-  const double most_noise = std::max(options.detail, options.lines.robust);
+  const double noise = least.back()[places];
   if (noise > most_noise * most_noise * weight) return std::nullopt;
   std::size_t k = 0;
   for (; k + 1 < least.size(); ++k) {
     const double left = least[k][places] - noise, gain = least[k][places] - least[k + 1][places];
-    const double wanted = of_detail * options.detail;
     if (left <= wanted * wanted * weight || gain * area_of_look < options.face_price) break;
   }
   if (k + 1 < fewest_pitches) return std::nullopt;
@@ -364,7 +371,7 @@ auto roof_over(const Plan& plan, const Site& site, const std::vector<bool>& carr
     }
     return pitched(line->at_edge, line->slope);
   }
-  if (auto found = mansard_line(looks, options)) return found;
+  if (auto found = mansard_line(by_distance(looks), options)) return found;
   // About 70° and 20°, as roofs with a steep foot mostly have; the scan says how high.
   constexpr double run = 0.85, rise = 2.4, upper = 0.36;
   const auto above_gutter = [](double inward) {
@@ -422,10 +429,10 @@ auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std
     };
     if (line && line->slope >= forms.min_slope && line->slope <= forms.max_slope)
       give(pitched(line->at_edge, line->slope), line->at_edge);
-    if (const auto roof = mansard_line(looks, options)) give(*roof, (*roof)[1].height);
     if (looks.empty()) return;
-    const double area_of_look = of_all(1, looks.size(), site);
-    if (const auto roof = bent_line(looks, area_of_look, options)) give(*roof, (*roof)[1].height);
+    const auto sorted = by_distance(looks);
+    if (const auto roof = mansard_line(sorted, options)) give(*roof, (*roof)[1].height);
+    if (const auto roof = bent_line(sorted, of_all(1, looks.size(), site), options)) give(*roof, (*roof)[1].height);
   };
   for (const Point2 axis : axes_of(sides, forms)) {
     propose([&](std::size_t p) { return std::abs(dot(sides[p].inward, axis)) > forms.across_cosine; });
