@@ -71,6 +71,25 @@ foreach(document IN LISTS documents)
   endforeach()
 endforeach()
 
+# Every decision is in the index once, and those that were overtaken say so there and in their own second paragraph.
+file(READ ${ROOT}/docs/decisions/README.md index)
+string(REGEX REPLACE "[][;]" "@" index "${index}")  # brackets and semicolons mean something in CMake's lists
+file(GLOB decisions RELATIVE ${ROOT}/docs/decisions ${ROOT}/docs/decisions/[0-9]*.md)
+foreach(decision IN LISTS decisions)
+  string(REGEX MATCHALL "\n[|] @[0-9]+@[(]${decision}[)] [^\n]*" rows "${index}")
+  list(LENGTH rows row_count)
+  if(NOT row_count EQUAL 1)
+    list(APPEND complaints "docs/decisions/README.md has ${row_count} rows for ${decision}, not one")
+    continue()
+  endif()
+  file(READ ${ROOT}/docs/decisions/${decision} text)
+  string(REGEX MATCH "\nStatus:[^\n]*overtaken [^\n]*by " status "${text}")
+  string(REGEX MATCH " by @[0-9]+@[(][0-9]+-" entry "${rows}")
+  if((status AND NOT entry) OR (entry AND NOT status))
+    list(APPEND complaints "docs/decisions/README.md and the status of ${decision} disagree on whether it was overtaken")
+  endif()
+endforeach()
+
 # A page that a source file sends its reader to is there.
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/mansard/*.[ch]pp ${ROOT}/apps/*.[ch]pp)
 foreach(source IN LISTS sources)
