@@ -181,8 +181,12 @@ def main():
         sys.exit(__doc__)
     out = pathlib.Path(sys.argv[2])
     if sys.argv[1] == "--measured":
+        if not (out / "shapes.md").exists():
+            sys.exit(f"{out}: an earlier run of tools/results.py has left nothing complete there; measure with tools/results.py DATA {out}")
         if "VAL3DITY" in os.environ:
             validate(out)
+    elif not (pathlib.Path(sys.argv[1]) / "airborne").is_dir():
+        sys.exit(f"{sys.argv[1]}: expected a folder with airborne, sim_rotterdam, delft, mvs_buildings and zhongshan")
     else:
         measure(pathlib.Path(sys.argv[1]), out)
     found = read(out)
