@@ -32,7 +32,7 @@ git_here() { git -c safe.directory='*' -C "$repository" "$@"; }
 commit=$(git_here rev-parse HEAD)
 [[ -z $(git_here status --porcelain) ]] || echo "== changes that are not committed are left out"
 SOURCE_DATE_EPOCH=$(git_here show -s --format=%ct HEAD)
-export SOURCE_DATE_EPOCH LC_ALL=C.UTF-8 TZ=UTC PYTHONDONTWRITEBYTECODE=1
+export SOURCE_DATE_EPOCH TZ=UTC PYTHONDONTWRITEBYTECODE=1
 umask 022
 version=$(git_here show HEAD:CMakeLists.txt | sed -n 's/^project(mansard VERSION \([0-9.]*\).*/\1/p')
 [[ -n $version ]] || fail "CMakeLists.txt has no version"
@@ -47,7 +47,7 @@ rm -rf "$made"
 mkdir -p "$made"
 # An archive whose bytes depend on names and contents only.
 pack() { # ARCHIVE FOLDER NAME
-  tar -C "$2" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --clamp-mtime --owner=0 --group=0 --numeric-owner \
+  LC_ALL=C tar -C "$2" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --clamp-mtime --owner=0 --group=0 --numeric-owner \
     --mode='u+rwX,go+rX,go-w' --format=gnu -cf - "$3" | gzip -9n > "$1"
 }
 step() { echo "== $*"; }
@@ -95,7 +95,7 @@ rm -rf "$work/licences"
 python3 tools/sbom.py "$made/$name.spdx.json" --commit "$commit" --licences "$work/licences/$name-licences" \
   --build "$build" -- "$made"/*
 pack "$made/$name-licences.tar.gz" "$work/licences" "$name-licences"
-(cd "$made" && sha256sum -- * > "$work/SHA256SUMS")
+(cd "$made" && ls | LC_ALL=C sort | xargs sha256sum -- > "$work/SHA256SUMS")
 mv "$work/SHA256SUMS" "$made/"
 rmdir "$out" 2> /dev/null || true
 cp -r "$made" "$out.part" && mv "$out.part" "$out"

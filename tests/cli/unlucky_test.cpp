@@ -345,6 +345,10 @@ TEST_F(Unlucky, remedies_for_what_does_not_overlap_work) {
               [](double& x, double& y, double& z) { x = (x + 84800) * 1e3, y = (y + 447400) * 1e3, z *= 1e3; });
   expect_refusal(reconstruct(at("unit.obj"), at("far.geojson")), 3, "ingest-mesh-unusable", "multiplied by 0.001");
 
+  // A house about the origin is in no other unit, although it would reach anywhere if it were.
+  put("nowhere.geojson", geojson(polygon("[9000,9000],[9003,9000],[9003,9003],[9000,9003],[9000,9000]")));
+  EXPECT_THAT(told(at("house.obj"), at("nowhere.geojson")), Not(HasSubstr("multiply")));
+
   words =
       told(moved_house("swapped.obj", [](double& x, double& y, double&) { x += 84800, y += 447400, std::swap(x, y); }),
            at("far.geojson"));
