@@ -53,7 +53,7 @@ pack() { # ARCHIVE FOLDER NAME
 step() { echo "== $*"; }
 
 step "$name of commit $commit"
-git_here archive --format=tar --prefix="$name/" HEAD | gzip -9n > "$made/$name.tar.gz"
+git_here -c tar.umask=0022 archive --format=tar --prefix="$name/" HEAD | gzip -9n > "$made/$name.tar.gz"
 source=$work/$name
 rm -rf "$source"
 tar -C "$work" -xzf "$made/$name.tar.gz"
