@@ -61,11 +61,16 @@ cd "$source"
 build=$source/build/release
 
 step "program, libraries, Python package"
-cmake --preset release -DMANSARD_TESTS=OFF -DMANSARD_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3 > "$work/configure.log" ||
+map=-ffile-prefix-map=$source/=  # no name of a folder in what assertions say
+cmake --preset release -DMANSARD_TESTS=OFF -DMANSARD_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3 \
+  "-DCMAKE_CXX_FLAGS=$map" "-DCMAKE_C_FLAGS=$map" > "$work/configure.log" ||
   fail "$(tail -20 "$work/configure.log")"
 grep -q '^MANSARD_LAZ:BOOL=ON' "$build/CMakeCache.txt" && command -v wasm2c > /dev/null ||
   fail "wasm2c is missing, without which LAZ is not read; tools/setup.sh build"
 cmake --build "$build" -j "$jobs" > "$work/build.log" || fail "$(tail -20 "$work/build.log")"
+for made_program in "$build/bin/mansard" "$build/bin/mansard-reader" "$build"/python/mansard/_core*.so; do
+  ! grep -aqF "$source" "$made_program" || fail "$made_program names the folder that it was built in"
+done
 [[ $("$build/bin/mansard" --version) == "mansard $version" ]] || fail "the program says it is $("$build/bin/mansard" --version)"
 
 step "Debian packages"
