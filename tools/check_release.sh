@@ -15,9 +15,6 @@ version=$(sed -n 's/.* mansard-\([0-9.]*\)\.tar\.gz$/\1/p' "$release/SHA256SUMS"
 [[ -n $version ]] || fail "no source archive in SHA256SUMS"
 proxies=()
 for name in http_proxy https_proxy no_proxy; do [[ -z ${!name:-} ]] || proxies+=("$name=${!name}"); done
-mirror=${MIRROR:-$(apt-get indextargets --format '$(ORIGIN) $(CODENAME) $(REPO_URI)' 'Created-By: Packages' 2> /dev/null |
-  awk '$1 == "Debian" && $2 == "bookworm" && !seen++ { print $3 }')}
-mirror=${mirror:-http://deb.debian.org/debian}
 machine='' scratch=$(mktemp -d)
 trap 'rm -rf --one-file-system "$scratch" ${machine:+"$machine"}' EXIT
 
@@ -27,6 +24,9 @@ new_debian() {
   [[ $(id -u) -eq 0 ]] || { echo "check_release: a chroot needs root" >&2; exit 2; }
   command -v debootstrap > /dev/null || { echo "check_release: apt-get install debootstrap" >&2; exit 2; }
   [[ -z $machine ]] || rm -rf --one-file-system "$machine"
+  mirror=${MIRROR:-$(apt-get indextargets --format '$(ORIGIN) $(CODENAME) $(REPO_URI)' 'Created-By: Packages' 2> /dev/null |
+    awk '$1 == "Debian" && $2 == "bookworm" && !seen++ { print $3 }' || true)}
+  mirror=${mirror:-http://deb.debian.org/debian}
   machine=$(mktemp -d)
   chmod 755 "$machine"  # apt downloads as a user of its own
   debootstrap --variant=minbase --include=ca-certificates bookworm "$machine" "$mirror" > "$scratch/debootstrap.log" 2>&1 ||
