@@ -113,6 +113,13 @@ SPELLINGS = ["../outside/secret", "{outside}/secret", "x/../../outside/secret", 
              "/dev/zero", "MEM:::DATAPOINTER=4096,PIXELS=2,LINES=2,DATATYPE=Float32"]
 
 
+PIPES = {  # what a program that has it open has written; none: no program has it open
+    "a pipe that nobody writes to": None,
+    "a pipe whose writer writes nothing": b"",
+    "a pipe whose writer has written a house": HOUSE.encode(),
+}
+
+
 class Cases:
     def __init__(self):
         self.all = []
@@ -199,7 +206,7 @@ def cases():
         {"content": {"uri": "{level}-{x}-{y}.glb"}, "implicitTiling": {"subdivisionScheme": "QUADTREE", "availableLevels": 30,
                                                                       "subtreeLevels": 3, "subtrees": {"uri": "{level}-{x}-{y}.subtree"}}}))
     c.mesh("Sizes", "archive of 100,000 members", "m.zip", "ZIP")
-    for label in ["a pipe that nobody writes to", "a folder", "an empty folder", "a link to itself", "a link to nothing",
+    for label in [*PIPES, "a folder", "an empty folder", "a link to itself", "a link to nothing",
                   "/dev/zero", "/dev/null", "/dev/stdin", "no such file", "a file without permission to read"]:
         c.mesh("No files", f"{label} as a mesh", "m.obj", label)
         c.prints("No files", f"{label} as footprints", "f.geojson", label)
@@ -207,6 +214,8 @@ def cases():
 
 
 def make(folder, files, outside):
+    """Returns what is to be closed when the case is over."""
+    open_pipes = []
     for name, data in files.items():
         path = os.path.join(folder, name)
         if callable(data):
@@ -215,8 +224,11 @@ def make(folder, files, outside):
             with zipfile.ZipFile(path, "w") as archive:
                 for i in range(100_000):
                     archive.writestr(f"{i}.txt", "")
-        elif data == "a pipe that nobody writes to":
+        elif isinstance(data, str) and data in PIPES:
             os.mkfifo(path)
+            if PIPES[data] is not None:
+                open_pipes.append(os.open(path, os.O_RDWR))
+                os.write(open_pipes[-1], PIPES[data])
         elif data == "a folder":
             os.makedirs(os.path.join(path, "x"))
         elif data == "an empty folder":
@@ -237,6 +249,7 @@ def make(folder, files, outside):
             with open(path, "wb") as file:
                 file.write(data.encode(errors="surrogatepass") if isinstance(data, str) else data)
     os.symlink(outside, os.path.join(folder, "link"))
+    return open_pipes
 
 
 def run(program, folder, inputs, more):
@@ -273,8 +286,10 @@ def main():
             os.makedirs(folder)
             with open(os.path.join(outside, "secret"), "w") as file:
                 file.write("secret")
-            make(folder, files, outside)
+            open_pipes = make(folder, files, outside)
             code, err, usage = run(program, folder, inputs, more)
+            for pipe in open_pipes:
+                os.close(pipe)
             cpu, memory = usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
             errors = re.findall(r"error\[([a-z-]+)\]", err)
             warnings = sorted(set(re.findall(r"warning\[([a-z-]+)\]", err)))

@@ -155,10 +155,12 @@ auto with_flags_closed(const std::vector<Verb>& verbs, int argc, char** argv) ->
 
 /// Of whatever is read, before the verb begins. Outputs are checked by the verbs.
 auto check_inputs(const std::vector<std::string>& typed) -> base::Result<void> {
-  constexpr std::array outputs{"-o", "--output", "--report", "--export-mps"};
+  constexpr std::array outputs{"-o", "--output", "--report", "--export-mps", "--terrain-out"};
   for (std::size_t i = 2; i < typed.size(); ++i) {
-    if (std::ranges::find(outputs, typed[i - 1]) != outputs.end()) continue;
     const auto value = typed[i].starts_with("--") ? typed[i].find('=') : std::string::npos;
+    if (std::ranges::find(outputs, value == std::string::npos ? typed[i - 1] : typed[i].substr(0, value)) !=
+        outputs.end())
+      continue;
     const auto word = value == std::string::npos ? typed[i] : typed[i].substr(value + 1);
     if (auto checked = formats::check_given(word); !checked) return checked;
   }

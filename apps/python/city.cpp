@@ -8,6 +8,7 @@
 #include "apps/python/settings.hpp"
 #include "apps/python/work.hpp"
 #include "mansard/base/stopped.hpp"
+#include "mansard/formats/results.hpp"
 #include "mansard/formats/stream.hpp"
 #include "mansard/pipeline/solids.hpp"
 #include "mansard/pipeline/stored.hpp"
@@ -386,14 +387,15 @@ auto is_edited(const CityState& state) -> bool {
   return false;
 }
 
-/// Each path in the format of its file extension, all or none. Returns the warnings.
+/// Each path in the format of its file extension. Of a format that cannot be written there is no file: the others are
+/// complete, and the error says so. Returns the warnings.
 auto write(const CityPointer& state, const std::vector<std::filesystem::path>& paths, const std::string& format,
            bool overwrite, const Settings& settings, const py::object& progress) -> std::vector<base::Diagnostic> {
   const auto written = is_edited(*state) ? edited_city(state, progress) : state;
   auto options = written->options;
   auto lists = pipeline::option_lists(options);
   apply(lists, {}, "", settings);
-  std::vector<formats::Format> kinds;
+  std::vector<formats::Target> targets;
   for (const auto& path : paths) {
     std::optional<formats::Format> kind = formats::format_of(path);
     if (!format.empty()) {
@@ -408,31 +410,37 @@ auto write(const CityPointer& state, const std::vector<std::filesystem::path>& p
       raise_error({base::error("option-value", "names no format; expected one of " + known,
                                format.empty() ? path.string() : format)});
     }
-    kinds.push_back(*kind);
+    targets.push_back({*kind, path});
     std::error_code status;
     if (!overwrite && std::filesystem::exists(path, status))
       raise_error(
           {base::error("output-exists", "already exists; choose another, or give overwrite=True", path.string())});
   }
-  std::vector<base::Diagnostic> warnings;
-  run_for(progress, 1, [&](const base::Run& run) -> base::Result<bool> {
+  const auto made = run_for(progress, 1, [&](const base::Run& run) -> base::Result<formats::Written> {
     base::Outputs outputs;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      auto writer = formats::open_writer(kinds[i], paths[i], {written->city.frame, written->city.made_by},
-                                         options.write, outputs);
-      if (!writer) return writer.failure();
-      for (const auto& building : written->city.buildings) {
-        if (run.cancelled()) return base::stopped();
-        if (auto added = (*writer)->add(building); !added) return added.failure();
-      }
-      if (auto finished = (*writer)->finish(); !finished) return finished.failure();
-      const auto more = (*writer)->warnings();
-      warnings.insert(warnings.end(), more.begin(), more.end());
-    }
+    auto each = formats::write_each(
+        targets, {written->city.frame, written->city.made_by}, options.write, {},
+        [&](formats::CityWriter& writer) -> base::Result<void> {
+          for (const auto& building : written->city.buildings) {
+            if (run.cancelled()) return base::stopped();
+            if (auto added = writer.add(building); !added) return added;
+          }
+          return writer.finish();
+        },
+        outputs);
+    if (!each) return each;
     if (auto committed = outputs.commit(run.cancel); !committed) return committed.failure();
-    return true;
+    return each;
   });
-  return warnings;
+  std::vector<base::Diagnostic> missing;
+  for (const auto& [target, why] : made.missing) {
+    auto& told = missing.emplace_back(why);
+    const auto name = target.path.filename().string();
+    told.message += "; there is no " + name + ", and the other files are complete; once this is corrected, write " +
+                    name + " alone";
+  }
+  if (!missing.empty()) raise_error(missing);
+  return made.warnings;
 }
 
 auto read_city(const std::filesystem::path& path, const std::string& preset, const Settings& settings,

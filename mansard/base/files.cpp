@@ -59,15 +59,26 @@ auto write_file(const std::filesystem::path& path, std::string_view bytes) -> Re
   return write_files({{path, bytes}});
 }
 
+auto check_no_pipe(const std::filesystem::path& path) -> Result<void> {
+  std::error_code status;
+  if (!std::filesystem::is_fifo(path, status)) return {};
+  return error(
+      "file-read",
+      "this is a pipe, which can be read only once, while inputs are read several times; write what comes out of "
+      "it to a file, and give that file",
+      path.string());
+}
+
 auto read_file(const std::filesystem::path& path) -> Result<std::string> {
   std::error_code status;
   if (!std::filesystem::exists(path, status))
     return error("file-missing", "no such file; check the path", path.string());
   if (std::filesystem::is_directory(path, status))
     return error("file-read", "this is a folder, not a file; name a file in it", path.string());
+  if (auto checked = check_no_pipe(path); !checked) return checked.failure();
   File file(std::fopen(path.c_str(), "rb"));
   if (!file) return error("file-read", std::string("cannot read: ") + std::strerror(errno), path.string());
-  // Pipes have no size, and files of /proc are larger than they say: both are read to their end.
+  // Devices have no size, and files of /proc are larger than they say: both are read to their end.
   const auto size = std::filesystem::file_size(path, status);
   const std::size_t stated = status ? 0 : size;
   constexpr std::size_t piece = 1 << 16;
@@ -87,8 +98,8 @@ auto read_file(const std::filesystem::path& path) -> Result<std::string> {
 auto codes() -> std::vector<Code> {
   return {
       {"file-missing", "A file named on the command line does not exist.", "Check the path.", 3},
-      {"file-read", "A file exists but cannot be read (a folder, no permission, a failing disk).",
-       "Check its permissions, or name a file rather than a folder.", 3},
+      {"file-read", "A file exists but cannot be read (a folder, a pipe, no permission, a failing disk).",
+       "Check its permissions, or name a file rather than a folder or a pipe.", 3},
       {"file-write", "An output file cannot be written; nothing half-written is left behind.",
        "Check the folder's permissions and the free space.", 3},
       {"option-value", "An option was given a value outside its range or of the wrong kind.",

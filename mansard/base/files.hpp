@@ -23,7 +23,12 @@ struct FileToWrite {
 /// "file-write", and with "cancelled" when the run is cancelled before the first is renamed.
 [[nodiscard]] auto write_files(const std::vector<FileToWrite>& files, const Cancel* cancel = nullptr) -> Result<void>;
 
-/// The whole file. Fails with "file-missing" (no such file), "file-read" (a folder, no permission, a failed read).
+/// Every input can be read again, so none is a pipe. Opening one would also wait for a program that writes to it,
+/// without end. Anything else passes. Fails with "file-read".
+[[nodiscard]] auto check_no_pipe(const std::filesystem::path& path) -> Result<void>;
+
+/// The whole file. Fails with "file-missing" (no such file), "file-read" (a folder, a pipe, no permission, a failed
+/// read).
 [[nodiscard]] auto read_file(const std::filesystem::path& path) -> Result<std::string>;
 
 /// Diagnostic codes of this module: files and options.

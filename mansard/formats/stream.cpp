@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/formats/attribute_choice.hpp"
 #include "mansard/formats/detail/writers.hpp"
@@ -190,6 +191,7 @@ auto format_in(const std::filesystem::path& path) -> std::optional<Format> {
 }  // namespace
 
 auto read_city(const std::filesystem::path& path) -> base::Result<std::unique_ptr<CityReader>> {
+  if (auto checked = base::check_no_pipe(path); !checked) return checked.failure();
   // By what is in it before its name.
   auto format = format_in(path);
   if (!format) format = format_of(path);

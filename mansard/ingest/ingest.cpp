@@ -289,8 +289,13 @@ auto mended(const Box2& footprints, const geometry::Box3& mesh, const std::array
         return Point3{p.z, p.y, -p.x};
       }))
     return "the mesh lies on its side, and with its x axis up they do: turn it before it is read";
-  for (const auto& way : ways)
-    if (overlap([&](Point3 p) { return way.factor * p; })) return way.words;
+  // m: from a house to a city among mountains. Any mesh near the origin reaches far if it is a thousand times as large.
+  constexpr double least_height = 1, most_height = 3000;
+  for (const auto& way : ways) {
+    const double height = way.factor * (mesh.most.z - mesh.least.z);
+    if (height >= least_height && height <= most_height && overlap([&](Point3 p) { return way.factor * p; }))
+      return way.words;
+  }
   return {};
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <variant>
 
+#include "mansard/base/files.hpp"
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/crs/gdal.hpp"
@@ -89,6 +90,7 @@ auto join(model::Scene& scene, const std::filesystem::path& table, const std::st
   std::error_code status;
   if (!std::filesystem::exists(table, status))
     return base::error("ingest-join-table", "there is no such file; check the path", table.string());
+  if (auto checked = base::check_no_pipe(table); !checked) return checked.failure();
   const formats::Confined confined(table);
   const GDALDatasetUniquePtr file(GDALDataset::Open(table.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   OGRLayer* layer = file ? layer_with(*file, key) : nullptr;

@@ -77,8 +77,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     files[f"{info}/METADATA"] = _metadata().encode()
     files[f"{info}/WHEEL"] = (
         f"Wheel-Version: 1.0\nGenerator: mansard {version}\nRoot-Is-Purelib: false\nTag: {tag}\n").encode()
-    for name in ("LICENSE", "NOTICE"):
-        files[f"{info}/licenses/{name}"] = (ROOT / name).read_bytes()
+    for name in ("LICENSE", "NOTICE", "packaging/copyright"):  # the last of what is compiled in
+        files[f"{info}/licenses/{os.path.basename(name)}"] = (ROOT / name).read_bytes()
     record = ""
     for name, data in files.items():
         digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()

@@ -284,6 +284,38 @@ class Others(WithFolder):
         self.assertEqual((self.folder / "python.city.json").read_bytes(), (self.folder / "cli.city.json").read_bytes())
         self.assertAlmostEqual(mansard.extrude(features)["a"].solids[0].volume, mansard.extrude(path)["a"].solids[0].volume)
 
+    def test_of_several_formats_are_written_but_for_one_that_fails(self):
+        # No way leads from Mars to WGS 84, which 3D Tiles need.
+        outline = {"type": "Polygon", "coordinates": [[[0, 0], [12, 0], [12, 8], [0, 8], [0, 0]]]}
+        city = mansard.extrude([outline], crs="IAU_2015:49910", default_height=6)
+        paths = [self.folder / name for name in ("a.obj", "a.3dtiles", "a.city.json")]
+        with self.assertRaises(mansard.Error) as caught:
+            city.write(paths)
+        self.assertEqual(caught.exception.code, "write-tiles-crs")
+        self.assertIn("there is no a.3dtiles, and the other files are complete", str(caught.exception))
+        self.assertEqual([path.exists() for path in paths], [True, False, True])
+        self.assertEqual(len(mansard.read_city(paths[2])), 1)
+        # Where nothing could be written, no others are spoken of; and nothing is written where a name is wrong.
+        with self.assertRaises(mansard.Error) as caught:
+            city.write(self.folder / "b.3dtiles")
+        self.assertNotIn("other files", str(caught.exception))
+        with self.assertRaises(mansard.Error):
+            city.write([self.folder / "c.obj", self.folder / "c.nothing"])
+        self.assertFalse((self.folder / "c.obj").exists())
+
+    def test_refuses_pipes_wherever_they_are_given(self):
+        pipe = str(self.folder / "pipe.geojson")
+        os.mkfifo(pipe)
+        model = str(self.folder / "model.city.json")
+        mansard.extrude(FOOTPRINTS, default_height=6).write(model)
+        for call in (lambda: mansard.reconstruct(pipe, FOOTPRINTS), lambda: mansard.reconstruct(MESH, pipe),
+                     lambda: mansard.extrude(pipe), lambda: mansard.read_city(pipe), lambda: mansard.read_scan(MESH, pipe),
+                     lambda: mansard.evaluate(pipe, MESH), lambda: mansard.evaluate(model, pipe), lambda: mansard.label(MESH, pipe),
+                     lambda: mansard.reconstruct(MESH, FOOTPRINTS, dtm=pipe), lambda: mansard.compare(pipe, pipe)):
+            with self.assertRaises(mansard.Error) as caught:
+                call()
+            self.assertIn("to a file, and give that file", str(caught.exception))
+
     def test_convert_gives_the_bytes_of_the_command_line(self):
         mansard.reconstruct(MESH, FOOTPRINTS).write(self.folder / "model.city.json")
         run("convert", self.folder / "model.city.json", "-o", self.folder / "cli.glb", "-q")

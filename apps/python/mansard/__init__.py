@@ -361,7 +361,8 @@ def _write(self, path, *, format="", overwrite=False, progress=None, **options):
     """Writes the city, with the edits of its plans, to one file or several.
 
     Args:
-        path: a path or a list of paths; the file extension names the format (:func:`formats`). All are written or none.
+        path: a path or a list of paths; the file extension names the format (:func:`formats`). Where one cannot hold
+            the city, the others are written, and the error says which is missing.
         format: the name of a format, instead of the file extension.
         overwrite: replace what exists.
         **options: those of the module "write".

@@ -1,13 +1,9 @@
 #include "mansard/formats/files/named_file.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <fstream>
 #include <string_view>
-#include <thread>
 
 #include "mansard/formats/files/reach.hpp"
 
@@ -22,28 +18,6 @@ auto bytes_of_named(const std::filesystem::path& path) -> base::Result<Bytes> {
   if (endless || name.find("/vsistdin/") != name.npos)
     return base::error("file-read", "a file names this, which is no file but a device; check who made it", name);
   return Bytes::of(path);
-}
-
-auto check_pipe(const std::filesystem::path& path, std::chrono::milliseconds patience) -> base::Result<void> {
-  std::error_code failure;
-  if (!std::filesystem::is_fifo(path, failure)) return {};
-  const int pipe = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  int aside[2] = {-1, -1};
-  bool written = pipe < 0 || ::pipe2(aside, O_CLOEXEC) != 0;  // then opening it says what is wrong
-  // tee() takes nothing out of a pipe. It says 0 where nobody has the other end open, who programs that are started
-  // together may do a little later.
-  const auto end = std::chrono::steady_clock::now() + patience;
-  while (!written) {
-    written = ::tee(pipe, aside[1], 1, SPLICE_F_NONBLOCK) != 0;
-    if (written || std::chrono::steady_clock::now() >= end) break;
-    std::this_thread::sleep_for(std::min(patience, std::chrono::milliseconds(100)));
-  }
-  // Where somebody writes, this end stays open to the end of the program: without a reader, writing would fail.
-  for (const int file : {written ? -1 : pipe, aside[0], aside[1]})
-    if (file >= 0) ::close(file);
-  if (written) return {};
-  return base::error("file-read", "no program writes to this pipe; start that one first, or give a file",
-                     path.string());
 }
 
 namespace {

@@ -1,7 +1,6 @@
 // Files that other files name.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -13,11 +12,6 @@ namespace mansard::formats {
 /// The bytes of a buffer or a tile. As Bytes::of, but never of a device or a pipe, which need not end: those a user may
 /// name, not a file. Fails with "file-missing", "file-read".
 [[nodiscard]] auto bytes_of_named(const std::filesystem::path& path) -> base::Result<Bytes>;
-
-/// Waits so long for a program that writes to a named pipe, which may be started with this one; anything else passes at
-/// once. Without one, opening it would never end. Fails with "file-read".
-[[nodiscard]] auto check_pipe(const std::filesystem::path& path,
-                              std::chrono::milliseconds patience = std::chrono::seconds(10)) -> base::Result<void>;
 
 /// That a file does not begin as text in UTF-16 or UTF-32 does, which is read nowhere but in XML. Fails with
 /// "file-read".

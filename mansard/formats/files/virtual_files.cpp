@@ -67,7 +67,7 @@ struct Mapping {
 
 /// Nothing for what cannot be mapped: a pipe, an empty file, one that is not there.
 auto mapped(const fs::path& path) -> std::shared_ptr<const Mapping> {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);  // a pipe would wait for its writer
   if (file < 0) return nullptr;
   struct stat status {};
   void* start = MAP_FAILED;

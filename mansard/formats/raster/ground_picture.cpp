@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "mansard/base/files.hpp"
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
 #include "mansard/crs/spatial_reference.hpp"
@@ -42,6 +43,7 @@ auto to_colours(GDALDataset& dataset) -> std::vector<std::string> {
 auto read_ground_picture(const fs::path& path, const std::string& crs, int most) -> base::Result<GroundPicture> {
   crs::register_gdal();
   if (!is_there(path)) return why_missing(path);
+  if (auto checked = base::check_no_pipe(path); !checked) return checked.failure();
   const crs::GdalMessages messages;
   const Confined confined(path);
   GDALDatasetUniquePtr file(GDALDataset::Open(name_for_gdal(path).c_str(),

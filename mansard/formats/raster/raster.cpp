@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
@@ -91,6 +92,7 @@ class RasterFile {
 auto RasterFile::open(const fs::path& path) -> base::Result<RasterFile> {
   crs::register_gdal();
   if (!is_there(path)) return why_missing(path);
+  if (auto checked = base::check_no_pipe(path); !checked) return checked.failure();
   const crs::GdalMessages messages;
   const Confined confined(path);
   RasterFile out;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "mansard/base/files.hpp"
 #include "mansard/base/options.hpp"
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
@@ -580,7 +581,7 @@ auto read_features(const fs::path& path, const FeatureQuery& options, const base
   std::error_code failure;
   if (!is_database(path)) {
     if (!is_there(path)) return why_missing(path);
-    if (auto piped = check_pipe(path); !piped) return piped.failure();
+    if (auto piped = base::check_no_pipe(path); !piped) return piped.failure();
     if (fs::is_regular_file(path, failure) && fs::file_size(path, failure) == 0)
       return base::error("ingest-footprints-format", "the file is empty; export the footprints again", subject);
     auto model = read_city_model(path, options);

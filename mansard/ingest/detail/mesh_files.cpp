@@ -8,6 +8,7 @@
 #include <mutex>
 #include <set>
 
+#include "mansard/base/files.hpp"
 #include "mansard/base/stopped.hpp"
 #include "mansard/crs/gdal.hpp"
 #include "mansard/crs/gdal_messages.hpp"
@@ -138,7 +139,7 @@ auto MeshReading::list_folder(const fs::path& folder) -> base::Result<void> {
 
 auto MeshReading::list(const std::vector<fs::path>& paths) -> base::Result<void> {
   for (const auto& given : paths) {
-    if (auto piped = formats::check_pipe(given); !piped) return piped;
+    if (auto piped = base::check_no_pipe(given); !piped) return piped;
     const fs::path path = unpacked_name(given);
     // An archive of a single file is that file to GDAL, whatever its name.
     if (is_folder(path) || is_whole_archive(path)) {

@@ -28,6 +28,14 @@ constexpr std::uint64_t work_of_cut = 160;
   return corners;
 }
 
+/// As docs/decisions/0132-bounded-work.md measured it.
+constexpr std::uint64_t samples_of_corner = 100;
+/// What the search for roofs of that size may take in all; `most_work` of each sample.
+[[nodiscard]] inline auto most_work_of(std::uint64_t samples, std::uint64_t corners, std::int64_t most_work)
+    -> std::uint64_t {
+  return static_cast<std::uint64_t>(most_work) * (samples + samples_of_corner * corners);
+}
+
 /// Of one owner. Calls may run on any thread; the sum is the same in any order, and is read between them.
 class Account {
  public:

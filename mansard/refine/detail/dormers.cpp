@@ -222,6 +222,7 @@ class Errors {
 auto fitted_box(Box box, const std::vector<Sample>& samples, const Slope& slope, double blur, double reach, double same)
     -> Box {
   Box least = box, most = box;
+  reach += same_length;  // steps that add up to the reach are within it, however they are rounded
   least.left -= reach, least.front -= reach, most.right += reach, most.eaves += reach;
   Errors errors(box, samples, slope, blur);
   for (const double step : {0.4, 0.2, 0.1, 0.05}) {
@@ -444,11 +445,14 @@ auto apart(const Dormer& a, const Dormer& b, double by) -> bool {
   return false;
 }
 
-/// Whether an island is what was seen of the dormer, at another height above the slope.
+/// Whether an island is what was seen of the dormer, at another height above the slope. A box begins as the bounds of
+/// an island: sides that have not moved since go through the middle of a cell, which is in it.
 auto holds(const Dormer& dormer, const std::vector<std::uint32_t>& island, const Site& site) -> bool {
   const auto polygon = model::polygon_of(dormer.plan);
-  return std::ranges::all_of(
-      island, [&](std::uint32_t cell) { return geometry::contains(polygon, site.measured.centre(cell)); });
+  return std::ranges::all_of(island, [&](std::uint32_t cell) {
+    const Point2 at = site.measured.centre(cell);
+    return geometry::contains(polygon, at) || geometry::boundary_distance(polygon, at) <= same_distance;
+  });
 }
 
 }  // namespace
@@ -484,11 +488,12 @@ void paint(const Dormer& dormer, const Site& site, View& view) {
   const auto raise = [&](Point2 place, double& height) {
     const Point2 at = place - p[0];
     const double u = dot(at, along), v = dot(at, inward);
-    if (u < 0 || u > width || v < 0 || v > depth) return;
+    // On a side is in it, as for holds().
+    if (u < -same_distance || u > width + same_distance || v < -same_distance || v > depth + same_distance) return;
     height = std::max(height, dormer.eaves + dormer.pitch * (width / 2 - std::abs(u - width / 2)));
   };
   for (std::size_t i = 0; i < view.z_at.size(); ++i) raise(site.places[i], view.z_at[i]);
-  const auto box = geometry::bounds(p);
+  const auto box = geometry::bounds(p).grown(same_distance);
   const auto index = [&grid](double at, double origin, std::size_t count) {
     return static_cast<std::size_t>(
         std::clamp(std::ceil((at - origin) / grid.spacing), 0.0, static_cast<double>(count)));

@@ -67,9 +67,14 @@ class Judge {
   /// m²·m²: what another roof may save at most, beside faces.
   [[nodiscard]] auto wrong(const Judged& judged) const -> double { return reducible(judged) + judged.unsupported; }
 
-  /// Whether no more roofs are to be asked for, one after the other. Only where no other thread asks.
-  [[nodiscard]] auto is_tired() const -> bool {
-    const bool tired = asked_.load(std::memory_order_relaxed) >= static_cast<std::uint64_t>(options_.search.most_roofs);
+  /// Whether no more roofs are to be asked for, one after the other: there were enough, or they took as much as all
+  /// that is done with a building of that size may take. Only where no other thread asks.
+  [[nodiscard]] auto is_tired(const model::Plan& plan) const -> bool {
+    const auto asked = asked_.load(std::memory_order_relaxed);
+    const auto corners = corners_of(plan);
+    const bool tired =
+        asked >= static_cast<std::uint64_t>(options_.search.most_roofs) ||
+        asked * work_of(site_, corners) >= most_work_of(samples_of(site_), corners, options_.search.most_work);
     if (tired && account_) account_->met_a_bound();
     return tired;
   }

@@ -14,8 +14,6 @@
 namespace mansard::refine::detail {
 namespace {
 
-/// As docs/decisions/0132-bounded-work.md measured it.
-constexpr std::uint64_t samples_of_corner = 100;
 /// Shares of what a search may take after which joining and cutting anew, then cutting, then the rest end. Chosen by
 /// hand, so that a search which ends early has tried something of each.
 constexpr double share_of_joining = 0.5, share_of_cutting = 0.8;
@@ -38,7 +36,7 @@ class Pieces {
       corners_ += corners_of(piece.roof.plan);
       pieces_.push_back(numbered(std::move(piece)));
     }
-    most_ = static_cast<std::uint64_t>(work.options().search.most_work) * (samples_ + samples_of_corner * corners_);
+    most_ = most_work_of(samples_, corners_, work.options().search.most_work);
   }
 
   /// Of the pieces that it began with.

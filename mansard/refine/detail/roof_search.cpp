@@ -129,7 +129,7 @@ auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
     auto others = others_of(draft, judged.plan, p, sides, judge.options());
     others.insert(others.end(), (*setbacks)[p].begin(), (*setbacks)[p].end());
     for (auto& profile : others) {
-      if (judge.is_tired()) return judged;
+      if (judge.is_tired(judged.plan)) return judged;
       Plan plan = judged.plan;
       plan.profiles[p] = std::move(profile);
       if (auto next = judge.cheaper(plan, judged.cost)) judged = std::move(*next);
