@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Extrudes random buildings with parts as OpenStreetMap has them: tools/building_parts.py MANSARD OUT [--count 2000]
-[--seed 1] [--val3dity PROGRAM]
+[--seed 1] [--shapes] [--val3dity PROGRAM]
 
-Outlines of many kinds have up to six parts that stand side by side, on each other, within each other or in the air, with any
+With --shapes: every roof:shape over seven outlines at three angles instead, of which each must be as high as its tag within
+5 mm. Outlines of many kinds have up to six parts that stand side by side, on each other, within each other or in the air, with any
 roof:shape and with tags as mappers write them. Checked are: every building has a model unless it says why; every part is
 as high as its tags, or says why; no solid is invalid by mansard's own check; and with --val3dity, that finds no
 error in the CityJSON. Features go through in files of CHUNK; a file with a fault stays in OUT.
@@ -104,7 +105,28 @@ def features(chance, first, count):
     return out
 
 
-def faults_of(folder):
+def table():
+    """Every shape over outlines of seven kinds at three angles, 9 m high with 3 m of roof."""
+    out = []
+    outlines = {"rectangle": [[0, 0], [12, 0], [12, 8], [0, 8]],
+                "L": [[0, 0], [12, 0], [12, 5], [5, 5], [5, 12], [0, 12]],
+                "T": [[0, 8], [6, 8], [6, 0], [10, 0], [10, 8], [16, 8], [16, 14], [0, 14]],
+                "courtyard": [[0, 0], [20, 0], [20, 20], [0, 20]],
+                "round": [[5 * math.cos(2 * math.pi * i / 24), 5 * math.sin(2 * math.pi * i / 24)] for i in range(24)],
+                "sliver": [[0, 0], [20, 0], [20, 0.5], [0, 0.5]],
+                "triangle": [[0, 0], [10, 0], [3, 7]]}
+    for row, shape in enumerate(SHAPES[:-1]):
+        for column, (name, ring) in enumerate(outlines.items()):
+            for place, angle in enumerate((0, 0.37, 1.1)):
+                x, y = 40 * (3 * column + place), 40 * row
+                rings = [ring] + ([[[6, 6], [6, 14], [14, 14], [14, 6]]] if name == "courtyard" else [])
+                out.append({"type": "Feature", "properties": {"id": f"{shape} {name} {place}", "building": "yes", "height": "9",
+                                                              "roof:height": "3", "roof:shape": shape},
+                            "geometry": {"type": "Polygon", "coordinates": [turned(one, angle, x, y) for one in rings]}})
+    return out
+
+
+def faults_of(folder, top=None):
     """Of run.json and the CityJSON."""
     run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
     outcomes, faults, codes = {}, [], {}
@@ -117,6 +139,8 @@ def faults_of(folder):
     city = json.loads((folder / "model.city.json").read_text(encoding="utf-8"))
     for name, thing in city["CityObjects"].items():
         own = thing.get("attributes", {})
+        if top is not None and thing["type"] == "Building" and abs(own["ms_h_roof_max"] - top) > 0.005:
+            faults.append(f'{name}: {own["ms_h_roof_max"]} m high')
         if own.get("ms_val3dity_lod22", "[]") != "[]":
             faults.append(f'{name}: {own["ms_val3dity_lod22"]} by mansard\'s own check')
     return outcomes, codes, faults
@@ -128,11 +152,14 @@ def main():
     asked.add_argument("out", type=pathlib.Path)
     asked.add_argument("--count", type=int, default=2000)
     asked.add_argument("--seed", type=int, default=1)
+    asked.add_argument("--shapes", action="store_true")
     asked.add_argument("--val3dity")
     asked = asked.parse_args()
+    if asked.shapes:
+        asked.count = 1
     chance, total, all_codes, faults, solids, done = random.Random(asked.seed), {}, {}, 0, 0, 0
     while done < asked.count:
-        some = features(chance, done, min(CHUNK, asked.count - done))
+        some = table() if asked.shapes else features(chance, done, min(CHUNK, asked.count - done))
         folder = asked.out / f"{done:06}"
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
@@ -143,7 +170,7 @@ def main():
                               "cityjson,glb"], capture_output=True, text=True)
         said = []
         if run.returncode in (0, 1):
-            outcomes, codes, said = faults_of(folder / "out")
+            outcomes, codes, said = faults_of(folder / "out", 9 if asked.shapes else None)
             for to, some in ((total, outcomes), (all_codes, codes)):
                 for name, count in some.items():
                     to[name] = to.get(name, 0) + count
@@ -151,7 +178,7 @@ def main():
                 judged = folder / "val3dity.json"
                 subprocess.run([asked.val3dity, folder / "out" / "model.city.json", "-r", judged], stdout=subprocess.DEVNULL)
                 found = json.loads(judged.read_text(encoding="utf-8"))
-                solids += sum(len(f.get("primitives", [])) for f in found["features"])
+                solids += sum(kind["total"] for kind in found["primitives_overview"] if kind["type"] == "Solid")
                 said += [f'val3dity: {f["id"]}: {e["code"]}' for f in found["features"] for e in
                          f.get("errors", []) + [e for p in f.get("primitives", []) for e in p["errors"]]]
                 said += [f'val3dity: {e["code"]} of the file' for e in found.get("dataset_errors", [])]
@@ -163,7 +190,7 @@ def main():
             print("  " + line)
         if not said:
             shutil.rmtree(folder)
-    print(f"{asked.count} buildings: {total}, {faults} faults" + (f", {solids} solids by val3dity" if asked.val3dity else ""))
+    print(f"{sum(total.values())} buildings: {total}, {faults} faults" + (f", {solids} solids by val3dity" if asked.val3dity else ""))
     print("reasons: " + ", ".join(f"{name} {count}" for name, count in sorted(all_codes.items())))
     return 1 if faults else 0
 

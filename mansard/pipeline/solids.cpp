@@ -68,8 +68,12 @@ auto unite_parts(std::span<const std::vector<LabelledSolid*>> buildings) -> std:
   std::vector<std::vector<solid::Stacked>> owned;
   const auto layers = layers_of(buildings, owned);
   std::vector<std::vector<const LabelledSolid*>> models;
-  for (const auto& layer : layers) models.push_back(layer.models);
-  auto united = solid::unite_all(models);
+  std::vector<std::size_t> of;
+  for (const auto& layer : layers) {
+    models.push_back(layer.models);
+    of.push_back(layer.building);
+  }
+  auto united = solid::unite_all(models, of);
   std::vector<SolidsOf> out(buildings.size());
   std::vector<std::vector<std::size_t>> lost(buildings.size());
   for (std::size_t l = 0; l < united.size(); ++l) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mansard/base/text.hpp"
+#include "mansard/extrude/extrude.hpp"
 #include "mansard/geometry/angles.hpp"
 #include "mansard/roof/detail/shape_list.hpp"
 #include "mansard/roof/detail/shapes.hpp"
@@ -153,18 +154,25 @@ void make_swept(const geometry::Polygon& polygon, const std::vector<Side>& sides
   }
   const auto [wall, rise] = heights_of(form, *crest, o, out);
   if (rise < o.minimum_rise) return make_flat(polygon, wall + rise, out);
-  const double steep = rise / *crest;
-  Draft draft(polygon, out.plan.base, detail::info_of(design.shape).profile({wall, *crest, rise}, o));
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const auto& sweep = design.sweeps[i];
-    const double share = o.half_hip;
-    if (design.half_move[i])
-      draft.give(sides[i], on_wall(wall, {{share * *crest, share * rise}, {share * *crest, rise}}));
-    else if (!sweep.moves) draft.give(sides[i], upright(wall + rise));
-    else if (design.half_way[i]) draft.give(sides[i], on_wall(wall + rise / 2, {{*crest, rise / 2}}));
-    else if (sweep.lag > 0) draft.give(sides[i], on_wall(wall + steep * sweep.lag, {{*crest, rise}}));
-  }
-  out.plan = std::move(draft).plan(wall + rise + o.cap_clearance);
+  const auto plan_with = [&, wall = wall, top = wall + rise](double height) {
+    const double steep = height / *crest, share = o.half_hip;
+    Draft draft(polygon, out.plan.base, detail::info_of(design.shape).profile({wall, *crest, height}, o));
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const auto& sweep = design.sweeps[i];
+      if (design.half_move[i])
+        draft.give(sides[i], on_wall(wall, {{share * *crest, share * height}, {share * *crest, height}}));
+      else if (!sweep.moves) draft.give(sides[i], upright(wall + height));
+      else if (design.half_way[i]) draft.give(sides[i], on_wall(wall + height / 2, {{*crest, height / 2}}));
+      else if (sweep.lag > 0) draft.give(sides[i], on_wall(wall + steep * sweep.lag, {{*crest, height}}));
+    }
+    return std::move(draft).plan(top + o.cap_clearance);
+  };
+  out.plan = plan_with(rise);
+  if (std::ranges::find(design.half_move, true) == design.half_move.end()) return;
+  // Ends that move a little can take away where the ridge would be highest; all heights of the roof scale alike.
+  const auto made = extrude::crest(out.plan, {}, run);
+  if (made && *made - wall > o.minimum_rise && *made < wall + rise - o.minimum_rise)
+    out.plan = plan_with(rise * rise / (*made - wall));
 }
 
 auto sound(const geometry::Polygon& polygon, const Form& form) -> bool {

@@ -232,6 +232,64 @@ auto layers_of(const std::vector<Piece>& pieces) -> std::vector<std::size_t> {
   return out;
 }
 
+/// A polygon without rings that touch, cut across where they do.
+auto simple(const Polygon& polygon) -> std::vector<Polygon> {
+  if (geometry::is_simple(polygon)) return {polygon};
+  std::vector<Point2> corners = polygon.outer;
+  for (const auto& hole : polygon.holes) corners.insert(corners.end(), hole.begin(), hole.end());
+  std::ranges::sort(corners);
+  std::vector<double> cuts;
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    if (corners[i] == corners[i - 1] && (cuts.empty() || cuts.back() != corners[i].x)) cuts.push_back(corners[i].x);
+  if (cuts.empty()) return {polygon};
+  const Box2 box = geometry::bounds(polygon.outer);
+  cuts.insert(cuts.begin(), box.least.x - 1);
+  cuts.push_back(box.most.x + 1);
+  std::vector<Polygon> out;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    if (cuts[i + 1] <= cuts[i]) continue;
+    const double low = box.least.y - 1, high = box.most.y + 1;
+    auto strip =
+        geometry::intersect(polygon, {{{cuts[i], low}, {cuts[i + 1], low}, {cuts[i + 1], high}, {cuts[i], high}}, {}});
+    if (!strip) return {polygon};
+    std::ranges::move(*strip, std::back_inserter(out));
+  }
+  return out;
+}
+
+/// Of pieces of one layer that share ground, the higher keeps it. Pieces in several polygons become several.
+void share_out(std::vector<Piece>& pieces, std::vector<std::size_t>& layers) {
+  std::vector<std::size_t> order(pieces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return pieces[i].top; });
+  std::vector<Piece> out;
+  std::vector<std::size_t> out_layers;
+  for (std::size_t o = 0; o < order.size(); ++o) {
+    Piece& own = pieces[order[o]];
+    for (std::size_t h = 0; h < o && !own.plan.empty(); ++h) {
+      const Piece& higher = pieces[order[h]];
+      if (layers[order[h]] != layers[order[o]] || !touch_in_height(own, higher) || !overlap(own, higher)) continue;
+      auto left = rest(own.plan, higher.plan);
+      if (!left) continue;
+      own.plan = std::move(*left);
+      own.whole = false;
+    }
+    if (own.whole) {
+      out.push_back(own);
+      out_layers.push_back(layers[order[o]]);
+      continue;
+    }
+    for (const auto& polygon : own.plan)
+      for (auto& one : simple(polygon)) {
+        out.push_back({own.part, {std::move(one)}, {}, own.base, own.own_base, own.top, false});
+        out.back().box = geometry::bounds(out.back().plan);
+        out_layers.push_back(layers[order[o]]);
+      }
+  }
+  pieces = std::move(out);
+  layers = std::move(out_layers);
+}
+
 /// Pieces of a part in different layers, whose unions are made apart, share a wall: the higher ones are drawn back from
 /// it, by so much that rounding does not make them overlap.
 void keep_apart(std::vector<Piece>& pieces, const std::vector<std::size_t>& layers) {
@@ -264,14 +322,14 @@ auto stack(std::span<const LabelledSolid* const> parts) -> std::vector<Stacked> 
     for (const auto& piece : pieces) boxes.push_back(piece.box);
     const geometry::BoxIndex index(boxes);
     for (std::size_t i = 0; i < pieces.size() && !any; ++i)
-      for (const std::uint32_t k : index.overlapping(boxes[i]))
-        any = any || (k < i && std::abs(pieces[i].base - pieces[k].base) > apart && overlap(pieces[i], pieces[k]));
+      for (const std::uint32_t k : index.overlapping(boxes[i])) any = any || (k < i && overlap(pieces[i], pieces[k]));
   }
   if (!any) return {};
   std::ranges::stable_sort(pieces, {}, [](const Piece& piece) { return std::pair(piece.base, piece.part); });
   std::vector<Piece> placed;
   for (auto& piece : pieces) put(std::move(piece), placed);
-  const auto layers = layers_of(placed);
+  auto layers = layers_of(placed);
+  share_out(placed, layers);
   keep_apart(placed, layers);
   std::vector<Stacked> out;
   for (const auto p : others) out.push_back({p, 0, *parts[p]});

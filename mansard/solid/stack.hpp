@@ -16,13 +16,14 @@ struct Stacked {
   model::LabelledSolid model;
 };
 
-/// Parts whose bases are at several heights, which a union over one plan cannot take as they are. A part whose base is
-/// between the base and the top of another one stands on it where they overlap in plan: its piece there goes down to
-/// the other's base, and what is beside it keeps its own base. What floats above another part is in another layer.
-/// Guarantees: 1 pieces of one layer that overlap in plan overlap or touch in height · 2 the pieces of a part together
-/// have its plan, but for strips narrower than 2 cm and 2.2 mm between those of
-/// different layers · 3 empty where all parts are in one layer as they are: no two of
-/// different bases overlap in plan · 4 the same parts give the same pieces. Cost: O(n log n + pairs that overlap).
+/// Parts that overlap in plan, which a union over one plan cannot take as they are. A part whose base is between the
+/// base and the top of another one is joined with it where they overlap: its piece there goes down to the other's base,
+/// and what is beside it keeps its own base. What floats above another part is in another layer. Of pieces of one layer
+/// the higher keeps what they share. Guarantees: 1 pieces of one layer share no ground · 2 together they have the space
+/// of the parts, and what is between a part that is joined and the roof below it, but for strips narrower than 2 cm,
+/// and 2.2 mm between pieces of a part in different layers · 3 empty where no two parts overlap in plan: they are one
+/// layer as they are · 4 the same parts give the same pieces. Cost: O(n log n), and the square of the parts that
+/// overlap.
 [[nodiscard]] auto stack(std::span<const model::LabelledSolid* const> parts) -> std::vector<Stacked>;
 
 }  // namespace mansard::solid

@@ -1,8 +1,10 @@
 // Parts above each other. Sections are drawn from the side: a letter a metre, '.' air, a row a metre of height.
 #include <gmock/gmock.h>
+#include <cstdlib>
 #include <map>
 #include <set>
 
+#include "mansard/base/run.hpp"
 #include "mansard/extrude/extrude.hpp"
 #include "mansard/solid/solid.hpp"
 #include "mansard/solid/stack.hpp"
@@ -62,9 +64,13 @@ auto made(const std::vector<LabelledSolid>& parts) -> Made {
   if (pieces.empty()) layers[0] = all;
   Made out;
   std::vector<LabelledSolid> solids;
+  std::vector<std::vector<const LabelledSolid*>> of_layers;
   for (const auto& [layer, models] : layers) {
     out.layers.insert(layer);
-    const auto united = unite(models);
+    of_layers.push_back(models);
+  }
+  const std::vector<std::size_t> families(of_layers.size(), 0);
+  for (const auto& united : unite_all(of_layers, families)) {
     EXPECT_THAT(united.lost, IsEmpty());
     EXPECT_THAT(united.simplified, IsEmpty());
     for (const auto& one : united.solids) {
@@ -157,6 +163,38 @@ TEST(Stack, joins_a_roof_without_walls) {
   const auto one = made(parts);
   EXPECT_EQ(one.solids, 1U);
   EXPECT_NEAR(one.volume, 6 * 6 * (5 + 4 / 3.0), 0.01);
+}
+
+TEST(Stack, of_random_blocks_has_the_volume_of_their_union) {
+  const char* given = std::getenv("MANSARD_SEED");
+  const auto seed = given != nullptr ? std::stoull(given) : 20261129ULL;
+  constexpr int size = 8;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    base::Random random(seed, i);
+    SCOPED_TRACE("MANSARD_SEED=" + std::to_string(seed) + " case " + std::to_string(i));
+    const auto extent = [&] {
+      const auto a = static_cast<int>(random.index(size)), b = static_cast<int>(random.index(size));
+      return std::pair(std::min(a, b), std::max(a, b) + 1);
+    };
+    std::vector<LabelledSolid> parts;
+    std::set<std::array<int, 3>> filled;
+    std::string boxes;
+    const std::size_t count = 2 + random.index(5);
+    for (std::size_t p = 0; p < count; ++p) {
+      const auto [x0, x1] = extent();
+      const auto [y0, y1] = extent();
+      auto [z0, z1] = extent();
+      if (random.index(2) == 0) z0 = 0;
+      parts.push_back(block(x0, x1, y0, y1, z0, z1));
+      boxes += " x" + std::to_string(x0) + "-" + std::to_string(x1) + " y" + std::to_string(y0) + "-" +
+               std::to_string(y1) + " z" + std::to_string(z0) + "-" + std::to_string(z1) + ";";
+      for (int x = x0; x < x1; ++x)
+        for (int y = y0; y < y1; ++y)
+          for (int z = z0; z < z1; ++z) filled.insert({x, y, z});
+    }
+    // Layers are 2.2 mm apart: at most that on a wall of each part.
+    EXPECT_NEAR(made(parts).volume, static_cast<double>(filled.size()), 0.0022 * 4 * size * size) << boxes;
+  }
 }
 
 TEST(Stack, gives_the_same_pieces_for_the_same_parts) {
