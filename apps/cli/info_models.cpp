@@ -35,7 +35,7 @@ class Tally {
       for (const auto p : polygon.outer) extent_.add({p.x, p.y, building.ground}, frame_);
     for (const auto& part : building.parts) add(part);
     std::vector<Named> solids;
-    for (const auto& [parts, model] : building.solids)
+    for (const auto& [parts, model, part_of_face] : building.solids)
       solids.push_back(
           {parts.size() == building.parts.size() ? building.id : building.parts[parts.front()].id, &model});
     if (building.solids.empty())

@@ -170,12 +170,10 @@ auto levels_of(const model::Building& building, const model::Frame& frame, const
   std::vector<Levels> out;
   using enum Lod;
   const auto drawn = detail::drawn(building, keys, Solids::building);
-  for (const auto& one : drawn.solids) {
-    const auto made = detail::level_surfaces(one.part.model, one.part.attributes, frame, {lod12, lod13, lod20}, options,
-                                             drawn.solids.size() == 1);
-    out.push_back(
-        {detail::solid_of(made.lod12), detail::solid_of(made.lod13), detail::solid_of(made.lod20), one.part.model});
-  }
+  const auto all = detail::level_surfaces(drawn, frame, {lod12, lod13, lod20}, options);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    out.push_back({detail::solid_of(all[i].lod12), detail::solid_of(all[i].lod13), detail::solid_of(all[i].lod20),
+                   drawn.solids[i].part.model});
   return out;
 }
 

@@ -18,6 +18,12 @@ auto own_codes() -> std::vector<base::Code> {
        "Copy what it refers to into the folder, give that itself as the input, or set the environment variable "
        "MANSARD_OUTSIDE=yes if the file is to be trusted.",
        3},
+      {"ingest-parts",
+       "Features tagged building:part are parts of the buildings in whose outlines they are, or of those that a "
+       "relation type=building names.",
+       "Nothing to do; --where \"\\\"building:part\\\" IS NOT NULL\" takes the parts for buildings instead.", 0},
+      {"ingest-part-alone", "Features tagged building:part are in no outline; each is a building of its own.",
+       "Nothing to do, or draw the outline of the building (building=yes) in the source.", 0},
       {"ingest-mesh-format", "A mesh file is not in its format, or uses a part of it that is not read.",
        "Export it again as one of " + formats::titles(&formats::Reads::mesh) + ".", 3},
       {"ingest-mesh-metadata", "The metadata.xml beside a mesh does not say clearly where it is.",

@@ -23,6 +23,7 @@
 #include "mansard/ingest/detail/files_below.hpp"
 #include "mansard/ingest/detail/mesh_files.hpp"
 #include "mansard/ingest/detail/origin.hpp"
+#include "mansard/ingest/detail/parts.hpp"
 #include "mansard/ingest/detail/rings.hpp"
 #include "mansard/ingest/detail/surroundings.hpp"
 
@@ -508,6 +509,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
   append(scene.warnings, std::move(ground->chosen.file.warnings));
   append(scene.warnings, ground->way.warnings);
   finish_all(ground->chosen, local, scene);
+  detail::join_parts(scene, subject, scene.warnings);
   std::vector<cloud::GroundTile> undecided;  // without the cells, which are large
   for (auto& tile : meshes->counted)
     undecided.push_back({tile.x, tile.y, tile.columns, tile.rows, {}, {}, std::move(tile.undecided)});
@@ -549,6 +551,7 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   append(scene.warnings, std::move(file->warnings));
   append(scene.warnings, way->warnings);
   finish_all(*chosen, {{-far, -far}, {far, far}}, scene);
+  detail::join_parts(scene, subject, scene.warnings);
   return scene;
 }
 

@@ -1,6 +1,7 @@
 // A city of building models: features, their parts with plan and profiles, and the solids made of them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,6 +28,7 @@ struct Part {
 struct PartsSolid {
   std::vector<std::size_t> parts;  ///< by their place in the building, rising
   LabelledSolid model;
+  std::vector<std::uint32_t> part_of_face{};  ///< the part that each face comes from; empty where that is not known
 };
 
 /// One GIS feature with the parts that overlap it most.

@@ -11,6 +11,13 @@
 
 namespace mansard::model {
 
+/// A part of a building that its source draws by itself: OpenStreetMap's building:part.
+struct FootprintPart {
+  std::string id;                           ///< as that of a footprint, and unique among both
+  std::vector<geometry::Polygon> polygons;  ///< as those of a footprint
+  Attributes attributes;
+};
+
 /// One GIS feature. A feature that cannot be used keeps its place, with `defect` set; it has polygons only where
 /// nothing is wrong with these, so that they can be written as LoD 0.
 struct Footprint {
@@ -26,6 +33,8 @@ struct Footprint {
   std::optional<double> outline_z = std::nullopt;
   /// What the names of its parts begin with, where "id-" would make one that another footprint has; else empty.
   std::string part_prefix = {};
+  /// Where there are any, they are the building where no scan shows it, and the polygons are the land that it covers.
+  std::vector<FootprintPart> parts = {};
 
   /// The name of its part `number`, from 1.
   [[nodiscard]] auto part_id(std::size_t number) const -> std::string {

@@ -1,17 +1,21 @@
 // Footprints without a mesh: attributes to forms, forms to plans, plans to solids.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <mutex>
 
 #include "mansard/base/stopped.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/extrude/align.hpp"
+#include "mansard/geometry/change.hpp"
 #include "mansard/pipeline/detail/assemble.hpp"
 #include "mansard/pipeline/detail/city_builder.hpp"
 #include "mansard/pipeline/detail/city_tasks.hpp"
 #include "mansard/pipeline/detail/overlaps.hpp"
+#include "mansard/pipeline/detail/painted.hpp"
 #include "mansard/pipeline/detail/place.hpp"
+#include "mansard/pipeline/detail/said.hpp"
 #include "mansard/pipeline/detail/task_kept.hpp"
 #include "mansard/pipeline/pipeline.hpp"
 #include "mansard/report/attributes.hpp"
@@ -21,15 +25,22 @@
 namespace mansard::pipeline {
 namespace {
 
-/// One polygon of a feature, raised. All coordinates are in its block's own frame until it is placed.
+using detail::Said;
+using detail::SaidOf;
+
+/// One polygon of a feature or of a part of it, raised. All coordinates are in its block's own frame until it is
+/// placed.
 struct Raising {
   std::size_t feature = 0;
+  std::optional<std::size_t> part;  ///< of the feature's own parts
   geometry::Polygon outline;
   roof::Planned planned;
   std::optional<model::Solid> solid;
   bool full = true;
   std::vector<base::Diagnostic> reasons;
 };
+
+constexpr std::string_view by_profile = "profile";  // what heights come from where no attribute counts
 
 void add_all(std::vector<base::Diagnostic>& all, const std::vector<base::Diagnostic>& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -42,9 +53,18 @@ struct BlockJobs {
   geometry::Point3 origin;
 };
 
+/// The polygons of a part in the frame of its block, with the digits that the block's own have.
+auto in_frame(std::vector<geometry::Polygon> polygons, geometry::Point2 origin) -> std::vector<geometry::Polygon> {
+  for (auto& polygon : polygons)
+    geometry::change_corners(polygon, [&](geometry::Point2 p) {
+      return geometry::Point2{model::rounded(p.x), model::rounded(p.y)} - origin;
+    });
+  return polygons;
+}
+
 /// Where the scene has a terrain, the ground of the buildings is that, unless an attribute gives it.
 auto divide(const model::Scene& scene, const Options& options, const base::Run& run, std::vector<Raising>& jobs,
-            std::vector<roof::Read>& read) -> std::vector<BlockJobs> {
+            std::vector<SaidOf>& said) -> std::vector<BlockJobs> {
   const bool on_terrain = scene.terrain != nullptr && options.roof.ground_attribute.empty();
   std::vector<BlockJobs> out;
   for (auto& block : block::partition(scene, options.block, run)) {
@@ -52,13 +72,22 @@ auto divide(const model::Scene& scene, const Options& options, const base::Run& 
     const auto& origin = own.block.origin;
     out.push_back({jobs.size(), 0, {static_cast<double>(origin[0]), static_cast<double>(origin[1]), 0}});
     for (std::size_t m = 0; m < own.block.members.size(); ++m) {
+      const std::size_t feature = own.features[m];
+      auto& [whole, parts, with_outline] = said[feature];
       if (on_terrain && own.block.ground_known)
-        read[own.features[m]].form.ground = own.block.members[m].ground + static_cast<double>(origin[2]);
-      for (const auto& polygon : own.block.members[m].polygons) {
+        whole.form.ground = own.block.members[m].ground + static_cast<double>(origin[2]);
+      for (auto& part : parts) part.form.ground = whole.form.ground;
+      const auto add = [&](const geometry::Polygon& polygon, std::optional<std::size_t> part) {
         auto& job = jobs.emplace_back();
-        job.feature = own.features[m];
+        job.feature = feature;
+        job.part = part;
         job.outline = polygon;
-      }
+      };
+      if (with_outline)
+        for (const auto& polygon : own.block.members[m].polygons) add(polygon, std::nullopt);
+      for (std::size_t p = 0; p < parts.size(); ++p)
+        for (const auto& polygon : in_frame(scene.feature(feature).parts[p].polygons, xy(out.back().origin)))
+          add(polygon, p);
     }
     out.back().count = jobs.size() - out.back().first;
   }
@@ -143,8 +172,8 @@ auto eaves_of(const model::LabelledSolid& model) -> double {
   return low;
 }
 
-auto attributes_of(const model::LabelledSolid& model, const Raising& job, const report::BuildingReport& building)
-    -> model::Attributes {
+auto attributes_of(const model::LabelledSolid& model, const Raising& job, const model::Footprint& footprint,
+                   const Said& said, std::string_view height_from) -> model::Attributes {
   const auto areas = label::areas(model);
   model::Attributes out;
   const auto add = [&out](const char* name, model::Value value) { out.push_back({name, std::move(value)}); };
@@ -153,8 +182,14 @@ auto attributes_of(const model::LabelledSolid& model, const Raising& job, const 
   add("ms_h_roof_max", report::top_of(model.solid));
   if (const auto ridge = report::ridge_height(model)) add("ms_h_ridge", *ridge);
   add("ms_roof_type", report::roof_type(model));
-  add("ms_roof_shape", building.roof);
-  add("ms_height_from", building.height_from);
+  if (job.part) add("ms_source_id", footprint.parts[*job.part].id);
+  if (height_from != by_profile) add("ms_roof_shape", std::string(roof::to_string(job.planned.shape)));
+  add("ms_height_from", std::string(height_from));
+  const auto& paint = said.paint;
+  if (paint.wall) add("ms_wall_colour", detail::in_hex(*paint.wall));
+  if (paint.roof) add("ms_roof_colour", detail::in_hex(*paint.roof));
+  if (!paint.wall_material.empty()) add("ms_wall_material", paint.wall_material);
+  if (!paint.roof_material.empty()) add("ms_roof_material", paint.roof_material);
   add("ms_volume_lod22", solid::volume(model.solid));
   add("ms_area_roof_flat", areas.roof_flat);
   add("ms_area_roof_sloped", areas.roof_sloped);
@@ -167,9 +202,10 @@ auto attributes_of(const model::LabelledSolid& model, const Raising& job, const 
 }
 
 /// Adds a part to its building.
-void take(Raising job, model::LabelledSolid model, const model::Footprint& footprint, model::Building& building,
-          const report::BuildingReport& report) {
-  auto attributes = attributes_of(model, job, report);
+void take(Raising job, model::LabelledSolid model, const model::Footprint& footprint, const Said& said,
+          bool by_attributes, model::Building& building) {
+  auto attributes =
+      attributes_of(model, job, footprint, said, by_attributes ? to_string(said.form.source) : by_profile);
   building.parts.push_back({footprint.part_id(building.parts.size() + 1), std::move(job.planned.plan), std::move(model),
                             std::move(attributes)});
 }
@@ -182,14 +218,16 @@ void settle(SolidsOf made, model::Building& building, report::BuildingReport& re
     report.roof_min = report.parts == 0 ? low : std::min(report.roof_min, low);
     report.roof_max = report.parts == 0 ? high : std::max(report.roof_max, high);
     ++report.parts;
-    report.volume += solid::volume(model.solid);
-    detail::add(report.areas, label::areas(model));
+  }
+  for (const auto& one : made.solids) {  // of parts that overlap, what they share counts once
+    report.volume += solid::volume(one.model.solid);
+    detail::add(report.areas, label::areas(one.model));
   }
   detail::add_solids(building, report, std::move(made), 0);
 }
 
 /// Buildings and reports, still without parts.
-void begin(const model::Scene& scene, const std::vector<roof::Read>& read, bool by_attributes,
+void begin(const model::Scene& scene, const std::vector<SaidOf>& said, bool by_attributes,
            report::Reconstruction& out) {
   for (std::size_t i = 0; i < scene.footprints.size(); ++i) {
     const auto& footprint = scene.footprints[i];
@@ -198,14 +236,22 @@ void begin(const model::Scene& scene, const std::vector<roof::Read>& read, bool 
     building.id = report.id = footprint.id;
     building.attributes = footprint.attributes;
     building.footprint = footprint.polygons;
-    building.ground = report.ground = read[i].form.ground;
+    building.ground = report.ground = said[i].whole.form.ground;
     if (footprint.defect) {
       report.outcome = report::Outcome::refused;
       report.reasons.push_back(*footprint.defect);
       continue;
     }
-    report.height_from = by_attributes ? roof::to_string(read[i].form.source) : "profile";
-    if (by_attributes) add_all(report.reasons, read[i].warnings);
+    report.height_from = by_attributes ? to_string(detail::source_of(said[i])) : by_profile;
+    if (!by_attributes) continue;
+    if (said[i].with_outline) add_all(report.reasons, said[i].whole.warnings);
+    for (const auto& part : said[i].parts) add_all(report.reasons, part.warnings);
+    if (said[i].parts.empty() || said[i].with_outline) continue;
+    if (const auto cover = detail::cover_of(footprint)) {
+      building.attributes.emplace_back("ms_area_uncovered", std::round(cover->left * 100) / 100);
+      if (const auto words = detail::in_words(*cover); !words.empty())
+        report.reasons.push_back(base::warning("roof-uncovered", words));
+    }
   }
 }
 
@@ -262,38 +308,58 @@ auto making_of(const model::Scene& scene, const Options& options) -> base::Resul
 
 namespace {
 
+/// The plans of an outline, side by side where its roof takes several; without one where none can be made.
+auto planned_of(Raising outline, const std::vector<SaidOf>& said, const Making& making, const Options& options,
+                const base::Run& run) -> std::vector<Raising> {
+  const auto& of = said[outline.feature];
+  const auto& form = outline.part ? of.parts[*outline.part].form : of.whole.form;
+  std::vector<roof::Planned> plans;
+  if (!making.by_attributes) {
+    plans.push_back(roof::plan_along(outline.outline, making.profile, form, options.roof));
+  } else if (auto made = roof::plans_of(outline.outline, form, options.roof, run)) {
+    plans = std::move(*made);
+  } else {
+    outline.full = false;
+    outline.reasons.push_back(base::warning(made.error().code, made.error().message));
+    return {std::move(outline)};
+  }
+  std::vector<Raising> out;
+  for (auto& plan : plans) {
+    auto& job = out.emplace_back(outline);
+    job.full = plan.as_asked;
+    // Of roofs in several plans the same is said of each.
+    if (out.size() == 1 || plan.warnings != out.front().planned.warnings) job.reasons = plan.warnings;
+    job.planned = std::move(plan);
+  }
+  return out;
+}
+
 /// The footprints of a scene, but for what only all of a city show together. Nothing once the run is cancelled.
 auto raise_all(const model::Scene& scene, const Making& making, const Options& options, const base::Run& run)
     -> report::Reconstruction {
-  const auto& [by_attributes, profile] = making;
-  std::vector<roof::Read> read;
-  for (std::size_t i = 0; i < scene.footprints.size() + scene.surroundings.size(); ++i) {
-    read.push_back(roof::form_of(scene.feature(i).attributes, options.roof));
-    if (!by_attributes) read.back().form.base = 0;
-  }
+  const bool by_attributes = making.by_attributes;
+  std::vector<SaidOf> said(scene.footprints.size() + scene.surroundings.size());
+  base::parallel_for(said.size(),
+                     [&](std::size_t i) { said[i] = detail::said_of(scene.feature(i), options, by_attributes); });
   base::Watch planning;
-  std::vector<Raising> jobs;
-  const auto blocks = divide(scene, options, run, jobs, read);
+  std::vector<Raising> outlines;
+  auto blocks = divide(scene, options, run, outlines, said);
 
   base::Run inner = run;
   inner.progress = nullptr;
   run.report("roof", {}, 0);
-  base::parallel_for(jobs.size(), [&](std::size_t i) {
+  std::vector<std::vector<Raising>> planned(outlines.size());
+  base::parallel_for(outlines.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
-    Raising& job = jobs[i];
-    const auto& polygon = job.outline;
-    const auto& form = read[job.feature].form;
-    auto planned = by_attributes ? roof::plan_of(polygon, form, options.roof, inner)
-                                 : roof::plan_along(polygon, profile, form, options.roof);
-    if (!planned) {
-      job.full = false;
-      job.reasons.push_back(base::warning(planned.error().code, planned.error().message));
-    } else {
-      job.planned = std::move(*planned);
-      job.full = job.planned.as_asked;
-      job.reasons = job.planned.warnings;
-    }
+    planned[i] = planned_of(std::move(outlines[i]), said, making, options, inner);
   });
+  std::vector<Raising> jobs;
+  for (auto& [first, count, origin] : blocks) {
+    const std::size_t from = jobs.size();
+    for (std::size_t i = first; i < first + count; ++i) std::ranges::move(planned[i], std::back_inserter(jobs));
+    first = from;
+    count = jobs.size() - from;
+  }
   const base::Spent planned_in = planning.stop();
   base::Watch raising;
   std::vector<std::optional<model::Plan>> aligned(jobs.size());
@@ -322,6 +388,10 @@ auto raise_all(const model::Scene& scene, const Making& making, const Options& o
   const base::Spent raised_in = raising.stop();
   base::Watch labelling;
   std::vector<std::optional<model::LabelledSolid>> models(jobs.size());
+  label::Options classes = options.label;
+  // Walls are vertical where nothing was measured: what leans at all is the roof that tags describe.
+  constexpr double upright = 0.02;  // rad
+  if (by_attributes) classes.wall_angle = std::min(classes.wall_angle, upright);
   base::parallel_for(blocks.size(), [&](std::size_t b) {
     std::vector<std::size_t> raised;
     std::vector<model::Solid> solids;
@@ -330,7 +400,7 @@ auto raise_all(const model::Scene& scene, const Making& making, const Options& o
       raised.push_back(i);
       solids.push_back(std::move(*jobs[i].solid));
     }
-    auto labelled = label::classify(std::move(solids), options.label, inner);
+    auto labelled = label::classify(std::move(solids), classes, inner);
     for (std::size_t k = 0; k < raised.size(); ++k) {
       detail::move(jobs[raised[k]].planned.plan, blocks[b].origin);
       detail::move(labelled[k].solid, blocks[b].origin);
@@ -342,18 +412,25 @@ auto raise_all(const model::Scene& scene, const Making& making, const Options& o
   report::Reconstruction out;
   out.city.frame = scene.frame;
   out.city.made_by = detail::made_by(scene, options);
-  begin(scene, read, by_attributes, out);
-  out.city.buildings.resize(read.size());  // with those that stand around what was asked for
-  out.buildings.resize(read.size());
+  begin(scene, said, by_attributes, out);
+  out.city.buildings.resize(said.size());  // with those that stand around what was asked for
+  out.buildings.resize(said.size());
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     auto& job = jobs[i];
     const std::size_t feature = job.feature;
+    const auto& footprint = scene.feature(feature);
     auto& report = out.buildings[feature];
+    if (job.part)
+      for (auto& reason : job.reasons) reason.subject = footprint.parts[*job.part].id;
     add_all(report.reasons, job.reasons);
     if (!job.full) report.outcome = report::Outcome::fallback;
-    if (by_attributes && report.roof.empty()) report.roof = roof::to_string(job.planned.shape);
+    if (by_attributes) {
+      const std::string shape(roof::to_string(job.planned.shape));
+      report.roof = report.roof.empty() || report.roof == shape ? shape : "several";
+    }
+    const auto& of = job.part ? said[feature].parts[*job.part] : said[feature].whole;
     auto& building = out.city.buildings[feature];
-    if (auto& model = models[i]) take(std::move(job), *std::move(model), scene.feature(feature), building, report);
+    if (auto& model = models[i]) take(std::move(job), *std::move(model), footprint, of, by_attributes, building);
   }
   auto united = unite_parts(out.city.buildings);
   for (std::size_t b = 0; b < united.size(); ++b) settle(std::move(united[b]), out.city.buildings[b], out.buildings[b]);
@@ -380,6 +457,8 @@ auto raise_footprints(const model::Scene& scene, const Options& options, const b
   auto out = raise_all(scene, *making, options, run);
   if (!run.cancelled()) detail::report_overlaps(out, run);
   if (run.cancelled()) return base::stopped();
+  if (detail::has_colours(scene, options))
+    for (auto& building : out.city.buildings) building.texture = detail::painted(building);
   warn_of_assumed(static_cast<std::size_t>(std::ranges::count_if(out.buildings, is_assumed)), scene, out.warnings);
   out.times.total = total.stop();
   return out;
@@ -399,8 +478,10 @@ auto raise_footprints_aside(const model::Scene& scene, const Options& options, c
   std::size_t assumed = 0;
   std::map<std::string, std::vector<base::Spent>> spent;
   std::vector<std::string> stages;
-  const auto take = [&](std::size_t feature, const detail::Finished& one) {
+  const bool coloured = detail::has_colours(scene, options);
+  const auto take = [&](std::size_t feature, detail::Finished one) {
     if (is_assumed(one.report)) ++assumed;
+    if (coloured) one.building.texture = detail::painted(one.building);
     builder.take(feature, one);
   };
   const auto tasks = detail::in_tasks(places, static_cast<std::size_t>(options.ingest.task_footprints), scene.frame);
@@ -430,7 +511,7 @@ auto raise_footprints_aside(const model::Scene& scene, const Options& options, c
       if (auto kept = keeper.keep(*features, scene.frame); !kept) return kept.failure();
     }
     before += here;
-    for (std::size_t i = 0; i < features->size(); ++i) take(part.features[i], (*features)[i]);
+    for (std::size_t i = 0; i < features->size(); ++i) take(part.features[i], std::move((*features)[i]));
     if (auto put = builder.check(); !put) return put.failure();
     keeper.count(task, features->size());
     if (before < places.size())

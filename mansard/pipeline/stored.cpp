@@ -221,7 +221,7 @@ auto model_of(const model::City& city) -> model::Model {
   model.lod = "2.2";
   for (const auto& building : city.buildings) {
     model::ModelBuilding out{building.id, {}};
-    for (const auto& [parts, solid] : building.solids)
+    for (const auto& [parts, solid, part_of_face] : building.solids)
       out.parts.push_back(part_of(building.parts[parts.front()], solid));
     if (building.solids.empty())
       for (const auto& part : building.parts)

@@ -73,6 +73,15 @@ auto attributes() -> std::vector<formats::Attribute> {
       "slanted: more than 5 % of the roof's area is steeper than 5°; multiple horizontal: levels more than 0.5 m "
       "apart; "
       "horizontal.");
+  add("ms_source_id", part, "string", "",
+      "The id of the source's building:part that it is; only of models without a mesh.");
+  add("ms_area_uncovered", building, "number", "m²",
+      "Area of the outline that its building:parts leave without a model; only where it has such, of models without a "
+      "mesh.");
+  add("ms_wall_colour", part, "string", "", "Colour of the walls as #rrggbb, by building:colour or building:material.");
+  add("ms_roof_colour", part, "string", "", "Colour of the roof as #rrggbb, by roof:colour or roof:material.");
+  add("ms_wall_material", part, "string", "", "What the walls are made of, as building:material says it.");
+  add("ms_roof_material", part, "string", "", "What the roof is made of, as roof:material says it.");
   add("ms_roof_shape", part, "string", "", "The shape that was made; only of models without a mesh.");
   add("ms_height_from", part, "string", "",
       "What gave the height: height, levels, assumed or profile; only of models without a mesh.");

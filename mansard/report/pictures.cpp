@@ -189,8 +189,26 @@ auto has_soffits(const model::Building& building) -> bool {
   });
 }
 
+/// Whether every face of its solids has one colour: that of a tag.
+auto is_painted(const model::Building& building) -> bool {
+  if (!building.texture || building.texture->solids.size() != building.solids.size()) return false;
+  for (std::size_t s = 0; s < building.solids.size(); ++s) {
+    const auto& faces = building.texture->solids[s].faces;
+    const auto is_plain = [](const model::FaceTexture& face) { return face.pixels.rgb.size() == 3; };
+    if (faces.size() != building.solids[s].model.solid.faces.size() || !std::ranges::all_of(faces, is_plain))
+      return false;
+  }
+  return true;
+}
+
 void append(const model::Building& building, picture::Layer& layer) {
-  if (has_soffits(building))
+  if (is_painted(building))
+    for (std::size_t s = 0; s < building.solids.size(); ++s)
+      append(building.solids[s].model, layer, [&](std::uint32_t face) {
+        const auto& rgb = building.texture->solids[s].faces[face].pixels.rgb;
+        layer.colours.back() = {rgb[0], rgb[1], rgb[2]};
+      });
+  else if (has_soffits(building))
     for (const auto& one : building.solids) append(one.model, layer, [](std::uint32_t) {});
   else
     for (const auto& part : building.parts) append(part.model, layer, [](std::uint32_t) {});

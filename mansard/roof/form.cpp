@@ -112,13 +112,24 @@ class Reader {
     }
   }
 
+  /// Of the levels below the roof: where height and number are given, what these say.
+  auto level_height() -> double {
+    const Form& form = out_.form;
+    if (form.source != Source::height) return options_.level_height;
+    const auto levels = value(keys::levels(), detail::count_of, "a number of levels", 0, highest, true);
+    const auto tag = tags_.find(keys::roof_height());
+    const double roof = tag && form.shape != Shape::flat ? detail::length_of(tag->text).value_or(0) : 0;
+    if (!levels || *levels <= 0 || roof < 0 || roof >= form.height) return options_.level_height;
+    return (form.height - roof) / *levels;
+  }
+
   auto base_height() -> double {
     const Form& form = out_.form;
     auto found = value(keys::min_height(), detail::length_of, "a height", 0, highest, true);
     const Key& key = found ? keys::min_height() : keys::min_level();
     if (!found)
       if (const auto level = value(keys::min_level(), detail::count_of, "a number of levels", 0, highest, true))
-        found = *level * options_.level_height;
+        found = *level * level_height();
     if (!found) return 0;
     const bool room = form.roof_included || form.shape == Shape::flat ? *found < form.height : *found <= form.height;
     if (room) return *found;
@@ -136,7 +147,7 @@ class Reader {
           levels && *levels > 0)  // none means no storey under the roof, not that there is no roof
         found = *levels * options_.level_height;
     const double room = form.height - form.base;
-    if (found && form.roof_included && *found > room) {
+    if (found && form.roof_included && *found > room + 1e-6) {
       if (const auto tag = tags_.find(key))
         warn("roof-conflict", *tag,
              "is " + shown(*found) + " m, more than the building's " + shown(room) + " m; it is left out");

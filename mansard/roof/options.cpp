@@ -44,6 +44,12 @@ auto option_list(Options& o) -> base::OptionList {
       .source("chosen by hand; not measured")
       .number("half_hip", o.half_hip, "", {0.05, 0.95}, "Upright share of a half-hipped end.")
       .source("chosen by hand so that roofs look drawn; not measured")
+      .number("detail", o.detail, "m", {0.001, 5},
+              "Maximum distance between a curved roof (dome, onion, round) and its planes, unless it has 12 pitches.")
+      .source("a tenth of a metre, what a survey of roofs resolves; chosen by hand")
+      .number("outline_cover", o.outline_cover, "", {0, 1},
+              "Share of an outline from which on its building:parts replace it; below, it is extruded beside them.")
+      .source("OpenStreetMap wiki, Simple 3D Buildings: an outline with parts is not extruded")
       .number("ground", o.ground, "m", {-12000, 9000}, "z of the ground where no attribute gives it.")
       .source("zero of the vertical datum")
       .string("building_height_attribute", o.building_height_attribute, "Attribute to take as height.")
@@ -73,6 +79,11 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("corner_cut", o.corner_cut, "m", {0.001, 5},
               "Width of the cut at a skillion roof's lowest corner, which makes an edge for the plane to start from.")
       .advanced("wider than extrude's tolerances; not measured");
+  list.number("saltbox_shift", o.saltbox_shift, "", {0.05, 0.9},
+              "Share of a saltbox roof's width by which one of its eaves is farther from the ridge than the other.")
+      .advanced("chosen by hand so that roofs look drawn; not measured");
+  list.number("tooth", o.tooth, "m", {1, 100}, "Length of a tooth of a sawtooth roof without roof:height.")
+      .advanced("chosen by hand; not measured");
   list.number("apex_distance", o.apex_distance, "m", {0.001, 20},
               "Minimum distance between a pyramid's apex and the sides of its outline.")
       .advanced("chosen by hand; not measured");
@@ -128,6 +139,9 @@ auto codes() -> std::vector<base::Code> {
        "Split the building, or choose another shape; the message says what was made instead.", 1},
       {"roof-height", "A roof of this pitch would be higher than the building, so it was made lower.",
        "Correct roof:angle or height.", 1},
+      {"roof-uncovered",
+       "The building:parts of a building leave some of its outline without a model, or reach beyond it.",
+       "Nothing to do where the source means that; else draw the missing part, or give --roof-outline-cover 0.9.", 0},
       {"roof-missed", "A roof was extruded, but its ridge is not at the requested height.",
        "Look for very small edges in the outline.", 1},
   };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mansard/base/text.hpp"
+#include "mansard/extrude/extrude.hpp"
 #include "mansard/geometry/angles.hpp"
 #include "mansard/roof/detail/shape_list.hpp"
 #include "mansard/roof/detail/shapes.hpp"
@@ -57,7 +58,10 @@ struct Heights {
 auto heights_of(const Form& form, double run, const Options& o, Planned& out) -> Heights {
   const double room = form.height - form.base;
   const bool given = form.rise || form.angle;
-  double rise = form.rise ? *form.rise : run * geometry::tangent(form.angle ? *form.angle : form.pitch);
+  const double usual = detail::info_of(form.shape).rise_of_run;
+  double rise = form.rise                  ? *form.rise
+                : form.angle || usual == 0 ? run * geometry::tangent(form.angle ? *form.angle : form.pitch)
+                                           : run * usual;
   if (!form.roof_included) {
     if (!given && room > 0) rise = std::min(rise, room * form.most_share / (1 - form.most_share));
     return {room, rise};
@@ -82,40 +86,56 @@ void make_flat(const geometry::Polygon& polygon, double top, Planned& out) {
   out.plan = Draft(polygon, out.plan.base, upright(top)).plan(top);
 }
 
-void make_skillion(const geometry::Polygon& polygon, const Form& form, const Options& o, Planned& out) {
-  const auto slope = detail::slope_of(polygon, form, o);
-  const auto [wall, rise] = heights_of(form, slope.run, o, out);
-  if (rise < o.minimum_rise) return make_flat(polygon, wall + rise, out);
+/// A plane that is `wall` high where uphill · p is `low`, and `rise` higher after `run`.
+struct Plane {
+  double low = 0, run = 0, wall = 0, rise = 0;
+};
+
+void make_plane(const detail::Slope& slope, const Plane& plane, const Options& o, Planned& out) {
   if (slope.cut > 0)
     out.warnings.push_back(
         base::warning("roof-corner-cut",
                       std::to_string(slope.cut) + " low corners were cut off by 8 cm, for the plane to start from"));
-  const double steep = rise / slope.run;
-  Draft draft(slope.polygon, out.plan.base, upright(wall + rise));
+  const auto& [low, run, wall, rise] = plane;
+  const double steep = rise / run, top = wall + steep * (slope.low + slope.run - low);
+  Draft draft(slope.polygon, out.plan.base, upright(top));
   const auto sides = detail::sides_of(slope.polygon, o.side_turn);
   const auto level = detail::level_sides(sides, slope.uphill, o);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (!level[i]) continue;
     // Edges that start higher in the same plane stand on a wall up to there.
-    const double above = steep * (dot(0.5 * (sides[i].start + sides[i].end), slope.uphill) - slope.low);
+    const double above = steep * (dot(0.5 * (sides[i].start + sides[i].end), slope.uphill) - low);
     const double foot = wall + above < o.minimum_rise / 10 ? 0 : wall + above;
-    if (foot < wall + rise - o.minimum_rise) draft.give(sides[i], on_wall(foot, {{slope.run, rise}}));
+    if (foot < top - o.minimum_rise) draft.give(sides[i], on_wall(foot, {{run, rise}}));
   }
-  out.plan = std::move(draft).plan(wall + rise + o.cap_clearance);
+  out.plan = std::move(draft).plan(top + o.cap_clearance);
 }
 
-void make_pyramid(const geometry::Polygon& polygon, Point2 apex, const std::vector<Side>& sides, const Form& form,
-                  const Options& o, Planned& out) {
+void make_skillion(const geometry::Polygon& polygon, const Form& form, const Options& o, Planned& out) {
+  const auto slope = detail::slope_of(polygon, form, o);
+  const auto [wall, rise] = heights_of(form, slope.run, o, out);
+  if (rise < o.minimum_rise) return make_flat(polygon, wall + rise, out);
+  make_plane(slope, {slope.low, slope.run, wall, rise}, o, out);
+}
+
+void make_around_apex(const geometry::Polygon& polygon, Point2 apex, const std::vector<Side>& sides, const Form& form,
+                      const Options& o, Planned& out) {
   const auto distance = [&](const Side& side) {
     // The line through the middle of the side: its ends may bulge a little.
     return std::round(dot(apex - 0.5 * (side.start + side.end), side.inward) * 1e4) / 1e4;
   };
-  double nearest = distance(sides.front());
-  for (const Side& side : sides) nearest = std::min(nearest, distance(side));
+  double nearest = distance(sides.front()), farthest = nearest;
+  for (const Side& side : sides) {
+    nearest = std::min(nearest, distance(side));
+    farthest = std::max(farthest, distance(side));
+  }
   const auto [wall, rise] = heights_of(form, nearest, o, out);
   if (rise < o.minimum_rise) return make_flat(polygon, wall + rise, out);
-  Draft draft(polygon, out.plan.base, on_wall(wall, {{distance(sides.front()), rise}}));
-  for (const Side& side : sides) draft.give(side, on_wall(wall, {{distance(side), rise}}));
+  const auto profile = [&, wall = wall, rise = rise](const Side& side) {
+    return detail::info_of(form.shape).profile({wall, distance(side), rise, farthest}, o);
+  };
+  Draft draft(polygon, out.plan.base, profile(sides.front()));
+  for (const Side& side : sides) draft.give(side, profile(side));
   out.plan = std::move(draft).plan(wall + rise + o.cap_clearance);
 }
 
@@ -134,14 +154,25 @@ void make_swept(const geometry::Polygon& polygon, const std::vector<Side>& sides
   }
   const auto [wall, rise] = heights_of(form, *crest, o, out);
   if (rise < o.minimum_rise) return make_flat(polygon, wall + rise, out);
-  const double steep = rise / *crest;
-  Draft draft(polygon, out.plan.base, detail::info_of(design.shape).profile({wall, *crest, rise}, o));
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const auto& sweep = design.sweeps[i];
-    if (!sweep.moves) draft.give(sides[i], upright(wall + rise));
-    else if (sweep.lag > 0) draft.give(sides[i], on_wall(wall + steep * sweep.lag, {{*crest, rise}}));
-  }
-  out.plan = std::move(draft).plan(wall + rise + o.cap_clearance);
+  const auto plan_with = [&, wall = wall, top = wall + rise](double height) {
+    const double steep = height / *crest, share = o.half_hip;
+    Draft draft(polygon, out.plan.base, detail::info_of(design.shape).profile({wall, *crest, height}, o));
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const auto& sweep = design.sweeps[i];
+      if (design.half_move[i])
+        draft.give(sides[i], on_wall(wall, {{share * *crest, share * height}, {share * *crest, height}}));
+      else if (!sweep.moves) draft.give(sides[i], upright(wall + height));
+      else if (design.half_way[i]) draft.give(sides[i], on_wall(wall + height / 2, {{*crest, height / 2}}));
+      else if (sweep.lag > 0) draft.give(sides[i], on_wall(wall + steep * sweep.lag, {{*crest, height}}));
+    }
+    return std::move(draft).plan(top + o.cap_clearance);
+  };
+  out.plan = plan_with(rise);
+  if (std::ranges::find(design.half_move, true) == design.half_move.end()) return;
+  // Ends that move a little can take away where the ridge would be highest; all heights of the roof scale alike.
+  const auto made = extrude::crest(out.plan, {}, run);
+  if (made && *made - wall > o.minimum_rise && *made < wall + rise - o.minimum_rise)
+    out.plan = plan_with(rise * rise / (*made - wall));
 }
 
 auto sound(const geometry::Polygon& polygon, const Form& form) -> bool {
@@ -154,35 +185,129 @@ auto sound(const geometry::Polygon& polygon, const Form& form) -> bool {
 
 }  // namespace
 
-auto plan_of(const geometry::Polygon& polygon, const Form& form, const Options& o, const base::Run& run)
+auto plan_of(const geometry::Polygon& polygon, const Form& given, const Options& o, const base::Run& run)
     -> base::Result<Planned> {
-  if (!sound(polygon, form))
-    return base::error("roof-form", "there is nothing between base (" + base::to_text(form.base, 2) + " m) and top (" +
-                                        base::to_text(form.height, 2) + " m)");
+  if (!sound(polygon, given))
+    return base::error("roof-form", "there is nothing between base (" + base::to_text(given.base, 2) + " m) and top (" +
+                                        base::to_text(given.height, 2) + " m)");
   Planned out;
+  Form form = given;
+  const auto make_instead = [&](Shape shape, const std::string& why) {
+    out.as_asked = false;
+    out.warnings.push_back(base::warning("roof-shape-here", why + "; made " + std::string(to_string(shape)) +
+                                                                " instead of " + std::string(to_string(form.shape))));
+    form.shape = shape;
+  };
+  if (detail::is_of_several(form.shape) && form.rise.value_or(1) >= o.minimum_rise)
+    make_instead(detail::info_of(form.shape).without_ends, "this roof takes several plans");
   out.shape = form.shape;
   out.plan.base = form.ground + form.base;
   const auto sides = detail::sides_of(polygon, o.side_turn);
+  const auto apex = [&] {
+    return detail::info_of(form.shape).ends == detail::Ends::apex ? detail::apex_of(polygon, sides, o) : std::nullopt;
+  };
   if (form.shape == Shape::flat || form.rise.value_or(1) < o.minimum_rise) {
     make_flat(polygon, form.height - form.base, out);
   } else if (form.shape == Shape::skillion) {
     make_skillion(polygon, form, o, out);
-  } else if (form.shape == Shape::pyramidal) {
-    if (const auto apex = detail::apex_of(polygon, sides, o)) {
-      make_pyramid(polygon, *apex, sides, form, o, out);
-    } else {
-      Form hipped = form;
-      hipped.shape = detail::info_of(form.shape).without_ends;
-      out.as_asked = false;
-      out.warnings.push_back(base::warning("roof-shape-here", "no apex sees every side of this outline; made hipped"));
-      make_swept(polygon, sides, hipped, o, run, out);
-    }
+  } else if (const auto at = apex()) {
+    make_around_apex(polygon, *at, sides, form, o, out);
   } else {
     make_swept(polygon, sides, form, o, run, out);
+  }
+  if (form.shape == Shape::onion && out.shape == Shape::onion) {
+    out.as_asked = false;
+    out.warnings.push_back(base::warning(
+        "roof-shape-here", "the foot of an onion would overhang; made an onion from its largest ring up"));
   }
   if (out.shape != Shape::flat) out.top = out.flat_top = out.plan.cap - o.cap_clearance;
   if (out.top <= 0) return base::error("roof-form", "neither walls nor roof have a height");
   return out;
+}
+
+namespace {
+
+/// A strip of an outline between two lines across `up`.
+auto strip_of(const geometry::Polygon& polygon, Point2 up, double from, double to)
+    -> base::Result<std::vector<geometry::Polygon>> {
+  const Point2 along = left_of(up);
+  double least = 1e300, most = -1e300;
+  for (const Point2 p : polygon.outer) {
+    least = std::min(least, dot(p, along) - 1);
+    most = std::max(most, dot(p, along) + 1);
+  }
+  const auto at = [&](double u, double v) { return u * up + v * along; };
+  return geometry::intersect(polygon,
+                             geometry::Polygon{{at(from, least), at(to, least), at(to, most), at(from, most)}, {}});
+}
+
+/// One strip with the direction in which its plane rises.
+struct Strip {
+  Point2 uphill;
+  double from = 0, to = 0;  ///< m; along uphill
+};
+
+/// Planes side by side, each over a strip of the outline. None where the outline cannot be cut.
+auto in_strips(const geometry::Polygon& polygon, const Form& form, const std::vector<Strip>& strips, const Options& o)
+    -> base::Result<std::vector<Planned>> {
+  std::vector<Planned> all;
+  const double run = strips.front().to - strips.front().from;
+  for (const auto& [uphill, from, to] : strips) {
+    const auto pieces = strip_of(polygon, uphill, from, to);
+    if (!pieces) return pieces.failure();
+    for (const auto& piece : *pieces) {
+      constexpr double least = 0.01;  // m²; what is less is rounding
+      if (geometry::area(piece) < least) continue;
+      Planned out;
+      out.shape = form.shape;
+      out.plan.base = form.ground + form.base;
+      const auto [wall, rise] = heights_of(form, run, o, out);
+      if (rise < o.minimum_rise) make_flat(piece, wall + rise, out);
+      else make_plane(detail::slope_along(piece, uphill, o), {from, run, wall, rise}, o, out);
+      if (out.shape != Shape::flat) out.top = out.flat_top = out.plan.cap - o.cap_clearance;
+      if (out.top <= 0) return base::error("roof-form", "neither walls nor roof have a height");
+      all.push_back(std::move(out));
+    }
+  }
+  return all;
+}
+
+/// Where the planes of a butterfly or of the teeth of a sawtooth are.
+auto strips_of(const geometry::Polygon& polygon, const Form& form, const Options& o) -> std::vector<Strip> {
+  const auto extent = detail::extent_of(detail::sides_of(polygon, o.side_turn));
+  const Point2 axis = detail::ridge_axis(extent, form);
+  Point2 up = left_of(axis);
+  if (form.direction && dot(up, detail::pointing(*form.direction)) > 0) up = -1.0 * up;
+  double least = 1e300, most = -1e300;
+  for (const Point2 p : polygon.outer) {
+    least = std::min(least, dot(p, up));
+    most = std::max(most, dot(p, up));
+  }
+  if (form.shape == Shape::butterfly) {
+    const double middle = (least + most) / 2;
+    return {{up, middle, most}, {-1.0 * up, -middle, -least}};
+  }
+  constexpr double narrowest = 1, most_teeth = 12;  // m, and as many as a curve has pitches
+  const double usual = form.rise ? *form.rise / geometry::tangent(form.angle ? *form.angle : form.pitch) : o.tooth;
+  const double length = std::max(usual, narrowest);
+  const auto teeth = static_cast<int>(
+      std::clamp(std::round((most - least) / length), 1.0, std::min(most_teeth, std::max(1.0, most - least))));
+  std::vector<Strip> out;
+  const auto at = [&](int i) { return least + (most - least) * i / teeth; };
+  for (int i = 0; i < teeth; ++i) out.push_back({up, at(i), at(i + 1)});
+  return out;
+}
+
+}  // namespace
+
+auto plans_of(const geometry::Polygon& polygon, const Form& form, const Options& o, const base::Run& run)
+    -> base::Result<std::vector<Planned>> {
+  if (detail::is_of_several(form.shape) && sound(polygon, form) && form.rise.value_or(1) >= o.minimum_rise)
+    if (auto planned = in_strips(polygon, form, strips_of(polygon, form, o), o); planned && !planned->empty())
+      return planned;
+  auto one = plan_of(polygon, form, o, run);
+  if (!one) return one.failure();
+  return std::vector<Planned>{std::move(*one)};
 }
 
 auto profile_of(std::string_view text) -> base::Result<Profile> {

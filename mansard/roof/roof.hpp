@@ -3,6 +3,7 @@
 // Architectural Modeling with Procedural Extrusions, ACM TOG 30(2), 2011 (roofs as profiles of edges).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,7 +19,28 @@
 
 namespace mansard::roof {
 
-enum class Shape : std::uint8_t { flat, skillion, gabled, half_hipped, hipped, pyramidal, gambrel, mansard };
+enum class Shape : std::uint8_t {
+  flat,
+  skillion,
+  gabled,
+  half_hipped,
+  hipped,
+  pyramidal,
+  gambrel,
+  mansard,
+  saltbox,
+  gabled_height_moved,
+  bellcast_gable,
+  side_hipped,
+  side_half_hipped,
+  hipped_and_gabled,
+  round,
+  cone,
+  dome,
+  onion,
+  butterfly,
+  sawtooth,
+};
 /// As OpenStreetMap writes it: "half-hipped".
 [[nodiscard]] auto to_string(Shape shape) -> std::string_view;
 
@@ -53,6 +75,8 @@ struct Options {
   double pitch = 0.5236;      ///< rad; where neither roof:height nor roof:angle is given (30°)
   double most_share = 0.5;    ///< of the height; a roof without roof:height or roof:angle is no higher
   double half_hip = 0.5;      ///< of a half-hipped end's height; upright below it
+  double detail = 0.1;        ///< m; curved roofs are this near to their planes, or have 12 pitches
+  double outline_cover = 0;   ///< share of an outline that its parts cover; less, and it is extruded beside them
   double ground = 0;          ///< m; z of the ground where no attribute says it
 
   /// Attributes to take instead of the well-known names.
@@ -93,8 +117,36 @@ struct Options {
   /// Maximum share of the sides beside a skillion roof's lowest corner that is cut off. Chosen by hand; not measured.
   double corner_cut_share = 1.0 / 3;
   double apex_distance = 0.2;  ///< m; nearer to a side than this, its roof would be a wall
+  /// Share of a saltbox roof's width by which its lower eaves are farther from the ridge than its higher ones.
+  double saltbox_shift = 0.4;
+  double tooth = 6;  ///< m; length of a tooth of a sawtooth roof without roof:height
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
+
+/// sRGB
+using Colour = std::array<std::uint8_t, 3>;
+
+/// The colours of a building's surfaces, and what these are made of in OpenStreetMap's words.
+struct Paint {
+  std::optional<Colour> wall, roof;
+  std::string wall_material, roof_material;
+  [[nodiscard]] auto empty() const -> bool { return !wall && !roof && wall_material.empty() && roof_material.empty(); }
+};
+
+/// The paint, and a warning for every value that could not be used, which names tag and value.
+struct ReadPaint {
+  Paint paint;
+  std::vector<base::Diagnostic> warnings;
+};
+
+/// From building:colour, building:material, roof:colour and roof:material. A material gives the colour where no colour
+/// is given. Never fails: what cannot be used is left out with "roof-value".
+[[nodiscard]] auto paint_of(const model::Attributes& attributes, const Options& options) -> ReadPaint;
+
+/// The attributes of a part with those of its outline that count for it: colours and materials that it lacks, and where
+/// it has neither height nor levels all of the outline's that say a shape or a height.
+[[nodiscard]] auto inherited(const model::Attributes& part, const model::Attributes& outline, const Options& options)
+    -> model::Attributes;
 
 /// The form, and a warning for every value that could not be used, which names tag and value.
 struct Read {
@@ -125,6 +177,12 @@ struct Planned {
 /// Cost: outlines that are not convex are raised once with unit slopes to learn how high their ridge comes.
 [[nodiscard]] auto plan_of(const geometry::Polygon& polygon, const Form& form, const Options& options = {},
                            const base::Run& run = {}) -> base::Result<Planned>;
+
+/// The plans of a roof, side by side: one of most shapes, of a sawtooth one for each tooth, of a butterfly two.
+/// Guarantees, warnings and errors of plan_of for each; a shape of several plans comes out of plan_of as the nearest
+/// one of a single plan.
+[[nodiscard]] auto plans_of(const geometry::Polygon& polygon, const Form& form, const Options& options = {},
+                            const base::Run& run = {}) -> base::Result<std::vector<Planned>>;
 
 /// "0,0 0,6 4,9" as a profile. Fails with "roof-profile".
 [[nodiscard]] auto profile_of(std::string_view text) -> base::Result<model::Profile>;

@@ -421,7 +421,7 @@ auto united_over_one_plan(std::span<const std::vector<const LabelledSolid*>> bui
 
 /// Buildings whose boxes meet. Those with overhanging eaves stay by themselves.
 void unite_group(std::span<const std::vector<const LabelledSolid*>> buildings, const std::vector<std::uint32_t>& which,
-                 std::uint8_t pin, std::vector<United>& out) {
+                 std::uint8_t pin, std::span<const std::size_t> families_of, std::vector<United>& out) {
   std::vector<std::uint32_t> fields;
   for (const std::uint32_t b : which) {
     if (which.size() > 1 && detail::sheets_of(buildings[b])) fields.push_back(b);
@@ -439,11 +439,13 @@ void unite_group(std::span<const std::vector<const LabelledSolid*>> buildings, c
       continue;
     }
     std::vector<std::vector<const LabelledSolid*>> own;
-    std::vector<std::vector<std::uint32_t>> families(pin == detail::of_a_solid ? 1 : group.size());
+    std::map<std::size_t, std::vector<std::uint32_t>> by_name;
     for (std::uint32_t k = 0; k < group.size(); ++k) {
       own.push_back(buildings[group[k]]);
-      families[pin == detail::of_a_solid ? 0 : k].push_back(k);
+      by_name[pin == detail::of_a_solid ? 0 : families_of.empty() ? k : families_of[group[k]]].push_back(k);
     }
+    std::vector<std::vector<std::uint32_t>> families;
+    for (auto& [family, members] : by_name) families.push_back(std::move(members));
     Parts parts(std::move(own), std::move(families));
     auto made = best(parts, [&](const Parts& all, const Reach& reach) {
       std::vector<std::uint32_t> each(group.size());
@@ -458,8 +460,8 @@ void unite_group(std::span<const std::vector<const LabelledSolid*>> buildings, c
   }
 }
 
-auto unite_groups(std::span<const std::vector<const LabelledSolid*>> buildings, std::uint8_t pin)
-    -> std::vector<United> {
+auto unite_groups(std::span<const std::vector<const LabelledSolid*>> buildings, std::uint8_t pin,
+                  std::span<const std::size_t> families_of = {}) -> std::vector<United> {
   std::vector<geometry::Box2> boxes(buildings.size());
   std::vector<std::uint32_t> order;
   for (std::uint32_t b = 0; b < buildings.size(); ++b) {
@@ -479,7 +481,7 @@ auto unite_groups(std::span<const std::vector<const LabelledSolid*>> buildings, 
   std::vector<std::vector<std::uint32_t>> list;
   for (auto& [name, group] : groups) list.push_back(std::move(group));
   std::vector<United> out(buildings.size());
-  base::parallel_for(list.size(), [&](std::size_t g) { unite_group(buildings, list[g], pin, out); });
+  base::parallel_for(list.size(), [&](std::size_t g) { unite_group(buildings, list[g], pin, families_of, out); });
   return out;
 }
 
@@ -509,8 +511,9 @@ auto overlapping(std::span<const LabelledSolid* const> solids) -> std::vector<Ov
   return out;
 }
 
-auto unite_all(std::span<const std::vector<const LabelledSolid*>> buildings) -> std::vector<United> {
-  return unite_groups(buildings, detail::of_a_building);
+auto unite_all(std::span<const std::vector<const LabelledSolid*>> buildings, std::span<const std::size_t> families)
+    -> std::vector<United> {
+  return unite_groups(buildings, detail::of_a_building, families);
 }
 
 auto unite_each(std::span<const LabelledSolid* const> parts) -> std::vector<United> {

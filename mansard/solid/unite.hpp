@@ -39,9 +39,10 @@ struct United {
 /// The same for every building of a city, over one plan of each group of buildings that touch: walls of neighbours lie
 /// on the same points, so that solids of different buildings share walls exactly, or leave a gap, and overlap only
 /// where their parts do by more than 1 mm. A building that has no valid solid over that plan is made by itself. Cost:
-/// as unite(), for all parts of a group.
-[[nodiscard]] auto unite_all(std::span<const std::vector<const model::LabelledSolid*>> buildings)
-    -> std::vector<United>;
+/// as unite(), for all parts of a group. With `families`, a number for each of `buildings`, those of one number are
+/// layers of one building (stack.hpp), whose solids share no space either.
+[[nodiscard]] auto unite_all(std::span<const std::vector<const model::LabelledSolid*>> buildings,
+                             std::span<const std::size_t> families = {}) -> std::vector<United>;
 
 /// A solid for each part of one building. Validators compare solids of one building exactly, so that walls that parts
 /// share are the same faces in both, piece by piece.

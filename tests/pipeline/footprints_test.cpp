@@ -166,7 +166,7 @@ TEST(RaiseFootprints, lets_a_bad_building_affect_no_other_and_names_building_and
   scene.footprints.push_back(tagged("barn", rectangle(20, 0, 32, 8),
                                     {{"height", 6.0}, {"roof:shape", text("gabled")}, {"roof:height", text("9")}}));
   scene.footprints.push_back(
-      tagged("kiosk", rectangle(40, 0, 44, 4), {{"height", text("-3")}, {"roof:shape", text("dome")}}));
+      tagged("kiosk", rectangle(40, 0, 44, 4), {{"height", text("-3")}, {"roof:shape", text("crosspitched")}}));
   geometry::Polygon yard = rectangle(60, 0, 80, 20);
   yard.holes.push_back({{66, 6}, {66, 14}, {74, 14}, {74, 6}});
   scene.footprints.push_back(tagged("yard", yard, {{"height", 9.0}, {"roof:shape", text("pyramidal")}}));
@@ -184,8 +184,8 @@ TEST(RaiseFootprints, lets_a_bad_building_affect_no_other_and_names_building_and
   EXPECT_EQ(r.buildings[2].outcome, report::Outcome::full);
   EXPECT_TRUE(said(2, "roof-conflict", "roof:height = \"9\""));
   EXPECT_TRUE(said(3, "roof-value", "\"-3\""));
-  EXPECT_TRUE(said(3, "roof-shape-unknown", "\"dome\""));
-  EXPECT_EQ(r.buildings[3].roof, "pyramidal");
+  EXPECT_TRUE(said(3, "roof-shape-unknown", "\"crosspitched\""));
+  EXPECT_EQ(r.buildings[3].roof, "gabled");
   EXPECT_EQ(r.buildings[4].outcome, report::Outcome::fallback);
   EXPECT_TRUE(said(4, "roof-shape-here", "hipped"));
   EXPECT_EQ(r.buildings[4].roof, "hipped");

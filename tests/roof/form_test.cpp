@@ -80,22 +80,34 @@ TEST(Values, of_directions_are_degrees_and_points_of_the_compass) {
 }
 
 TEST(Shape, is_read_in_all_spellings_and_the_nearest_is_taken_of_others) {
-  const std::vector<std::tuple<const char*, Shape, bool>> table{{"flat", Shape::flat, true},
-                                                                {"gabled", Shape::gabled, true},
-                                                                {"Hipped", Shape::hipped, true},
-                                                                {"half-hipped", Shape::half_hipped, true},
-                                                                {"half_hipped", Shape::half_hipped, true},
-                                                                {"mansard", Shape::mansard, true},
-                                                                {"gambrel", Shape::gambrel, true},
-                                                                {"pyramidal", Shape::pyramidal, true},
-                                                                {"skillion", Shape::skillion, true},
-                                                                {"lean_to", Shape::skillion, true},
-                                                                {"dome", Shape::pyramidal, false},
-                                                                {"onion", Shape::pyramidal, false},
-                                                                {"round", Shape::gambrel, false},
-                                                                {"side_hipped", Shape::hipped, false},
-                                                                {"quadruple_saltbox", Shape::mansard, false},
-                                                                {"wavy", Shape::hipped, false}};
+  const std::vector<std::tuple<const char*, Shape, bool>> table{
+      {"flat", Shape::flat, true},
+      {"gabled", Shape::gabled, true},
+      {"Hipped", Shape::hipped, true},
+      {"half-hipped", Shape::half_hipped, true},
+      {"half_hipped", Shape::half_hipped, true},
+      {"mansard", Shape::mansard, true},
+      {"gambrel", Shape::gambrel, true},
+      {"pyramidal", Shape::pyramidal, true},
+      {"skillion", Shape::skillion, true},
+      {"lean_to", Shape::skillion, true},
+      {"dome", Shape::dome, true},
+      {"spherical", Shape::dome, true},
+      {"onion", Shape::onion, true},
+      {"round", Shape::round, true},
+      {"cone", Shape::cone, true},
+      {"saltbox", Shape::saltbox, true},
+      {"sawtooth", Shape::sawtooth, true},
+      {"butterfly", Shape::butterfly, true},
+      {"side_hipped", Shape::side_hipped, true},
+      {"side_half-hipped", Shape::side_half_hipped, true},
+      {"hipped-and-gabled", Shape::hipped_and_gabled, true},
+      {"bellcast_gable", Shape::bellcast_gable, true},
+      {"gabled_height_moved", Shape::gabled_height_moved, true},
+      {"crosspitched", Shape::gabled, false},
+      {"many", Shape::flat, false},
+      {"quadruple_saltbox", Shape::mansard, false},
+      {"wavy", Shape::hipped, false}};
   Options options;
   options.shape = Shape::hipped;
   for (const auto& [given, shape, exact] : table) {
@@ -177,6 +189,19 @@ TEST(Heights, of_bases_and_roofs_come_from_heights_then_levels) {
   EXPECT_FALSE(with({{"roof:levels", std::int64_t{0}}}).form.rise);
   EXPECT_NEAR(with({{"roof:angle", text("45")}}).form.angle.value_or(0), std::numbers::pi / 4, 1e-12);
   EXPECT_EQ(with({{"roof:orientation", text("across")}}).form.orientation, Orientation::across);
+}
+
+TEST(Heights, of_bases_in_levels_are_those_of_the_levels_that_height_gives) {
+  const Tags upper{{"height", 5.0},
+                   {"building:levels", std::int64_t{1}},
+                   {"building:min_level", std::int64_t{1}},
+                   {"roof:shape", text("gabled")},
+                   {"roof:height", text("2.2")}};
+  const auto read = form_of(upper, {});
+  EXPECT_NEAR(read.form.base, 2.8, 1e-9);
+  EXPECT_NEAR(read.form.rise.value_or(0), 2.2, 1e-9);
+  EXPECT_THAT(read.warnings, IsEmpty());
+  EXPECT_EQ(form_of({{"building:levels", std::int64_t{4}}, {"building:min_level", std::int64_t{2}}}, {}).form.base, 6);
 }
 
 TEST(Heights, that_contradict_each_other_are_left_out_with_a_warning) {

@@ -153,10 +153,7 @@ class CityGmlWriter : public CityWriter, private TextureQueue {
     Lods wanted;
     if (lod1_) wanted.push_back(*lod1_);
     if (lod2_) wanted.push_back(*lod2_);
-    std::vector<LevelSurfaces> levels;
-    for (const auto& [part, parts] : all.solids)
-      levels.push_back(
-          level_surfaces(part.model, part.attributes, header_.frame, wanted, options_.levels, all.solids.size() == 1));
+    const auto levels = level_surfaces(all, header_.frame, wanted, options_.levels);
     const auto* texture = textured != nullptr ? textures_for(building, all.solids.size()) : nullptr;
     for (std::size_t i = 0; texture != nullptr && i < all.solids.size(); ++i)
       if (texture->solids[i].faces.size() != all.solids[i].part.model.solid.faces.size())

@@ -178,8 +178,10 @@ void CityObjects::add(const model::Building& building, const Gate::Keyed& keys, 
   textured_ = uv_ != nullptr && textures_for(building, solids.solids.size()) != nullptr ? textured : nullptr;
   warnings.insert(warnings.end(), solids.warnings.begin(), solids.warnings.end());
   std::vector<Shape> shapes;
-  for (const auto& [part, parts] : solids.solids) {
-    auto levels = level_surfaces(part.model, part.attributes, frame_, lods_, levels_, solids.solids.size() == 1);
+  auto all = level_surfaces(solids, frame_, lods_, levels_);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& [part, parts] = solids.solids[i];
+    auto& levels = all[i];
     const bool own = part.id == keys.building || (parts.size() == 1 && part.id == keys.parts[parts.front()]);
     const bool asks = std::ranges::find(lods_, Lod::lod12) != lods_.end();
     if (asks && levels.lod12.empty() &&

@@ -1,6 +1,7 @@
 #include "mansard/formats/detail/flat_level.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -155,6 +156,66 @@ auto level_surfaces(const model::LabelledSolid& model, const model::Attributes& 
   return out;
 }
 
+namespace {
+
+auto lowest(const model::LabelledSolid& model) -> double {
+  double z = std::numeric_limits<double>::infinity();
+  for (const auto& v : model.solid.vertices) z = std::min(z, v.z);
+  return z;
+}
+
+/// A solid at a level of detail, and as it is at LoD 2.2.
+struct AtLevel {
+  std::vector<Surface>* level;
+  const std::vector<Surface>* fine;
+};
+
+/// Makes those that share space as they are at LoD 2.2.
+void keep_apart(const std::vector<AtLevel>& solids) {
+  std::vector<model::LabelledSolid> models;
+  for (const auto& one : solids) models.push_back(solid_of(*one.level));
+  std::vector<bool> is_fine(solids.size(), false);
+  const auto make_fine = [&](std::size_t i) {
+    if (is_fine[i]) return false;
+    is_fine[i] = true;
+    *solids[i].level = *solids[i].fine;
+    models[i] = solid_of(*solids[i].fine);
+    return true;
+  };
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t i = 0; i < models.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        const std::array<const model::LabelledSolid*, 2> two{&models[k], &models[i]};
+        if (solid::overlapping(two).empty()) continue;
+        const bool first = make_fine(i), second = make_fine(k);
+        again = again || first || second;
+      }
+  }
+}
+
+}  // namespace
+
+auto level_surfaces(const Drawn& drawn, const model::Frame& frame, const Lods& wanted,
+                    const solid::LevelOptions& options) -> std::vector<LevelSurfaces> {
+  std::vector<LevelSurfaces> out;
+  bool stacked = false;
+  for (const auto& [part, parts] : drawn.solids) {
+    out.push_back(level_surfaces(part.model, part.attributes, frame, wanted, options, drawn.solids.size() == 1));
+    stacked = stacked || lowest(part.model) != lowest(drawn.solids.front().part.model);
+  }
+  if (!stacked) return out;
+  std::vector<std::vector<Surface>> fine;
+  for (const auto& [part, parts] : drawn.solids) fine.push_back(quantised(part.model));
+  for (auto level : {&LevelSurfaces::lod12, &LevelSurfaces::lod13, &LevelSurfaces::lod20}) {
+    std::vector<AtLevel> all;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (!(out[i].*level).empty()) all.push_back({&(out[i].*level), &fine[i]});
+    keep_apart(all);
+  }
+  return out;
+}
+
 auto LevelOf::of(const WriteOptions& options, Format format) -> base::Result<LevelOf> {
   const auto lods = lods_of(options.lod, format);
   if (!lods) return lods.failure();
@@ -163,10 +224,9 @@ auto LevelOf::of(const WriteOptions& options, Format format) -> base::Result<Lev
 
 void LevelOf::apply(Drawn& drawn, const model::Frame& frame) const {
   if (lod == Lod::lod22) return;
-  for (auto& [part, parts] : drawn.solids) {
-    const auto made = level_surfaces(part.model, part.attributes, frame, {lod}, options, drawn.solids.size() == 1);
-    if (!made.at(lod).empty()) part.model = solid_of(made.at(lod));
-  }
+  const auto made = level_surfaces(drawn, frame, {lod}, options);
+  for (std::size_t i = 0; i < made.size(); ++i)
+    if (!made[i].at(lod).empty()) drawn.solids[i].part.model = solid_of(made[i].at(lod));
 }
 
 }  // namespace mansard::formats::detail

@@ -33,6 +33,10 @@ struct LevelSurfaces {
 [[nodiscard]] auto level_surfaces(const model::LabelledSolid& model, const model::Attributes& attributes,
                                   const model::Frame& frame, const Lods& wanted, const solid::LevelOptions& options,
                                   bool alone) -> LevelSurfaces;
+/// The same of all solids of a building. Of solids above each other, a flat roof of the lower one could reach into the
+/// higher one: two that share space at a coarser level are as at LoD 2.2 there.
+[[nodiscard]] auto level_surfaces(const Drawn& drawn, const model::Frame& frame, const Lods& wanted,
+                                  const solid::LevelOptions& options) -> std::vector<LevelSurfaces>;
 
 /// Solids at another level of detail. One that has no valid solid there stays as it is.
 struct LevelOf {

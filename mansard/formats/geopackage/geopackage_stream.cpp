@@ -199,9 +199,10 @@ class GeoPackageWriter : public CityWriter {
     if (std::ranges::none_of(lods_, [](Lod lod) { return lod != Lod::lod0; })) return {};
     const Drawn all = drawn(building, keyed, Solids::building);
     std::size_t number = 0;
-    for (const auto& [part, parts] : all.solids) {
-      const auto made =
-          level_surfaces(part.model, part.attributes, header_.frame, lods_, levels_, all.solids.size() == 1);
+    const auto levels = level_surfaces(all, header_.frame, lods_, levels_);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const auto& part = all.solids[i].part;
+      const auto& made = levels[i];
       for (const auto lod : lods_) {
         if (lod == Lod::lod0) continue;
         const auto model = lod == Lod::lod22 ? part.model : solid_of(made.at(lod));

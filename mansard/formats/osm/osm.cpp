@@ -55,11 +55,6 @@ void split_tags(model::Attributes& attributes) {
   attributes.insert(place, std::make_move_iterator(tags->begin()), std::make_move_iterator(tags->end()));
 }
 
-auto is_building(const model::Attributes& attributes) -> bool {
-  const std::string kind = text_of(attributes, "building");
-  return !kind.empty() && kind != "no";
-}
-
 auto osm_name(const model::Attributes& attributes) -> std::string {
   // OGR: areas made of relations have osm_id, those made of closed ways osm_way_id.
   if (const auto way = text_of(attributes, "osm_way_id"); !way.empty()) return "way/" + way;

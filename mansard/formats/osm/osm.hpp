@@ -11,9 +11,6 @@ namespace mansard::formats {
 /// Text that is not as OGR writes it stays as it is.
 void split_tags(model::Attributes& attributes);
 
-/// Whether a feature is tagged as a building: `building` is there and not "no".
-[[nodiscard]] auto is_building(const model::Attributes& attributes) -> bool;
-
 /// "way/17" or "relation/4", as OpenStreetMap names its own; empty where the feature says neither.
 [[nodiscard]] auto osm_name(const model::Attributes& attributes) -> std::string;
 

@@ -22,6 +22,8 @@
 #include "mansard/formats/geojson/assumed_crs.hpp"
 #include "mansard/formats/hash.hpp"
 #include "mansard/formats/osm/osm.hpp"
+#include "mansard/formats/osm/relations.hpp"
+#include "mansard/formats/osm/tags.hpp"
 #include "mansard/formats/vector/attributes.hpp"
 
 namespace mansard::formats {
@@ -36,6 +38,7 @@ auto open(const std::string& name, const std::string& encoding) -> GDALDatasetUn
   CPLStringList words;
   // The GML driver would write a .gfs file beside its input.
   if (is("GML")) words.SetNameValue("WRITE_GFS", "NO");
+  if (is("OSM")) words.SetNameValue("CONFIG_FILE", osm_configuration().c_str());
   if (is("ESRI Shapefile") && !encoding.empty()) words.SetNameValue("ENCODING", encoding.c_str());
   return GDALDatasetUniquePtr(GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                                 nullptr, words.List(), nullptr));
@@ -392,7 +395,16 @@ class Source {
     return check(layer, where, box.has_value());
   }
 
+  /// A relation type=building, whose members are one building.
+  void take_relation(OGRLayer& of, const OGRFeature& feature) {
+    if (std::string_view(of.GetName()) != "other_relations" || feature.GetGeometryRef() == nullptr) return;
+    const auto attributes = attributes_of(feature);
+    if (tag_of(attributes, "type") == "building")
+      relations_.add("relation/" + tag_of(attributes, "osm_id"), *feature.GetGeometryRef());
+  }
+
   auto take_all(OGRLayer& layer) -> base::Result<void> {
+    relations_.clear();
     // Features of OpenStreetMap come from all layers as they lie in the file.
     const bool osm = is_osm(*dataset_);
     layer.ResetReading();
@@ -403,14 +415,20 @@ class Source {
       OGRLayer* of = &layer;
       const OGRFeatureUniquePtr feature{osm ? dataset_->GetNextFeature(&of, nullptr, nullptr, nullptr)
                                             : layer.GetNextFeature()};
-      if (!feature) return {};
-      if (of != &layer) continue;
+      if (!feature) {
+        relations_.mark(out_.features);
+        return {};
+      }
+      if (of != &layer) {
+        if (osm) take_relation(*of, *feature);
+        continue;
+      }
       RawFeature raw = to_raw(*feature);
       raw.failure = messages_.failure();
       if (osm) {
         split_tags(raw.attributes);
         raw.own_id = osm_name(raw.attributes);
-        if (!is_building(raw.attributes)) {
+        if (const auto role = role_of(raw.attributes); !role.outline && !role.part) {
           ++no_buildings_;
           continue;
         }
@@ -499,6 +517,7 @@ class Source {
   GDALDatasetUniquePtr dataset_;  // after the messages: closing may say something too
   FeatureFile out_;
   std::size_t no_buildings_ = 0;
+  BuildingRelations relations_;
 };
 
 /// Sets which pass `where`, by a table of their attributes in memory.

@@ -127,7 +127,10 @@ auto part_of(const model::Scene& scene, std::span<const block::Group* const> gro
     shape.id = feature.id;
     shape.polygons = feature.polygons;
     shape.defect = feature.defect;
-    if (attributes_around) shape.attributes = feature.attributes;
+    if (attributes_around) {
+      shape.attributes = feature.attributes;
+      shape.parts = feature.parts;
+    }
     out.features.push_back(f);
     out.scene.surroundings.push_back(std::move(shape));
   }

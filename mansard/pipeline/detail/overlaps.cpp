@@ -99,7 +99,11 @@ auto candidates(const std::vector<Extent>& solids, const base::Run& run) -> Cand
   std::vector<std::vector<std::uint32_t>> near(solids.size());
   base::parallel_for(solids.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
-    const auto other = [&](std::uint32_t k) { return k != i && may_overlap(solids[i], solids[k]); };
+    // Solids of one building with different bases are above each other; unite_parts() has compared them.
+    const auto is_stacked = [&](std::uint32_t k) {
+      return solids[i].building == solids[k].building && solids[i].low != solids[k].low;
+    };
+    const auto other = [&](std::uint32_t k) { return k != i && may_overlap(solids[i], solids[k]) && !is_stacked(k); };
     near[i] = index.first_overlapping(boxes[i], most_compared + 1, other);
   });
   Candidates out;

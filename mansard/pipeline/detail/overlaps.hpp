@@ -26,8 +26,9 @@ struct Overlaps {
 /// Every two of the written solids whose ground floors share any area at all, and whose heights do: walls of neighbours
 /// coincide exactly in whole units of the files, or have a gap between them. "pipeline-overlap", or
 /// "pipeline-overlap-unchecked" where the ground cannot be intersected. In the order of the buildings. Overhanging
-/// eaves are not looked at. Two solids that both overlap many others may not be compared; the numbers are lower bounds
-/// then. Cost: O(n log n) for n solids. Nothing once the run is cancelled.
+/// eaves are not looked at, nor are solids of one building whose bases are at different heights. Two solids that both
+/// overlap many others may not be compared; the numbers are lower bounds then. Cost: O(n log n) for n solids. Nothing
+/// once the run is cancelled.
 [[nodiscard]] auto overlaps(const std::vector<model::Building>& buildings, const base::Run& run = {}) -> Overlaps;
 
 /// A solid as it stands on the ground: what there is to know of it here.

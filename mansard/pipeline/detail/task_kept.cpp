@@ -40,8 +40,14 @@ void move_all(std::vector<Finished>& features, Point3 by) {
 
 /// Everything of a feature that its model may depend on. Blocks begin with coordinates that are rounded like this.
 void pack_feature(model::Footprint footprint, Point2 by, std::string& out) {
-  for (auto& polygon : footprint.polygons)
-    geometry::change_corners(polygon, [&](Point2 p) { return Point2{model::rounded(p.x), model::rounded(p.y)} + by; });
+  const auto move = [&](std::vector<geometry::Polygon>& polygons) {
+    for (auto& polygon : polygons)
+      geometry::change_corners(polygon, [&](Point2 p) {
+        return Point2{model::rounded(p.x), model::rounded(p.y)} + by;
+      });
+  };
+  move(footprint.polygons);
+  for (auto& part : footprint.parts) move(part.polygons);
   base::pack(footprint, out);
 }
 

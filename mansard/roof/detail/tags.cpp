@@ -99,17 +99,36 @@ auto orientation() -> const Key& {
   return key;
 }
 auto direction() -> const Key& {
-  static const Key key{"roof:direction", {"roof_direction", "roof_direc"}, &Options::direction_attribute};
+  static const Key key{
+      "roof:direction", {"roof_direction", "roof_direc", "roof_slope_direction"}, &Options::direction_attribute};
   return key;
 }
 auto ground() -> const Key& {
   static const Key key{"ground", {}, &Options::ground_attribute};
   return key;
 }
+// Both spellings, and Overture's words.
+auto wall_colour() -> const Key& {
+  static const Key key{"building:colour", {"building_colour", "building_color", "facade_color"}};
+  return key;
+}
+auto wall_material() -> const Key& {
+  static const Key key{"building:material", {"building_material", "building_facade_material", "facade_material"}};
+  return key;
+}
+auto roof_colour() -> const Key& {
+  static const Key key{"roof:colour", {"roof_colour", "roof_color", "building_roof_colour", "roof_colou"}};
+  return key;
+}
+auto roof_material() -> const Key& {
+  static const Key key{"roof:material", {"roof_material", "building_roof_material", "roof_mater"}};
+  return key;
+}
 auto all() -> const std::vector<const Key*>& {
-  static const std::vector<const Key*> keys{&height(),      &levels(),      &min_height(),  &min_level(),
-                                            &shape(),       &roof_height(), &roof_levels(), &angle(),
-                                            &orientation(), &direction(),   &ground()};
+  static const std::vector<const Key*> keys{&height(),        &levels(),      &min_height(),   &min_level(),
+                                            &shape(),         &roof_height(), &roof_levels(),  &angle(),
+                                            &orientation(),   &direction(),   &ground(),       &wall_colour(),
+                                            &wall_material(), &roof_colour(), &roof_material()};
   return keys;
 }
 
@@ -122,7 +141,7 @@ Tags::Tags(const model::Attributes& attributes, const Options& options) : option
 }
 
 auto Tags::find(const Key& key) const -> std::optional<Tag> {
-  const std::string& wanted = options_.*key.attribute;
+  const std::string wanted = key.attribute == nullptr ? std::string() : options_.*key.attribute;
   const auto in_attributes = [&](std::string_view name) -> std::optional<Tag> {
     for (const Entry& entry : entries_)
       if (entry.name == name)

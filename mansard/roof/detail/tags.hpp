@@ -22,7 +22,7 @@ struct Tag {
 struct Key {
   std::string_view tag;
   std::vector<std::string_view> names;
-  const std::string Options::*attribute;  ///< the option that names an attribute instead
+  std::string Options::*attribute = nullptr;  ///< the option that names an attribute instead; null for none
 };
 
 namespace keys {
@@ -37,6 +37,10 @@ namespace keys {
 [[nodiscard]] auto orientation() -> const Key&;
 [[nodiscard]] auto direction() -> const Key&;
 [[nodiscard]] auto ground() -> const Key&;
+[[nodiscard]] auto wall_colour() -> const Key&;
+[[nodiscard]] auto wall_material() -> const Key&;
+[[nodiscard]] auto roof_colour() -> const Key&;
+[[nodiscard]] auto roof_material() -> const Key&;
 [[nodiscard]] auto all() -> const std::vector<const Key*>&;
 }  // namespace keys
 
@@ -70,6 +74,12 @@ class Tags {
 [[nodiscard]] auto bearing_of(std::string_view text) -> std::optional<double>;
 /// A number without a unit.
 [[nodiscard]] auto count_of(std::string_view text) -> std::optional<double>;
+
+/// "#b03020", "#b32", "red" and the other names of CSS, in any case.
+[[nodiscard]] auto colour_of(std::string_view text) -> std::optional<Colour>;
+
+/// What a material looks like, by OpenStreetMap's name for it.
+[[nodiscard]] auto colour_of_material(std::string_view material) -> std::optional<Colour>;
 
 /// The shape of a roof:shape, and whether it is that shape or only the nearest one.
 struct Named {

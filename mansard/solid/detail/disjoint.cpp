@@ -256,9 +256,59 @@ class Clipping {
 
 }  // namespace
 
+namespace {
+
+/// Whether the roof of a solid is above z anywhere over a polygon, or that cannot be computed. z in units of files.
+auto rises_above(const LabelledSolid& solid, double z, const Polygon& over) -> bool {
+  const auto box = geometry::bounds(over.outer);
+  for (std::size_t f = 0; f < solid.solid.faces.size(); ++f) {
+    const auto& face = solid.solid.faces[f];
+    if (solid.classes[f] != FaceClass::roof) continue;
+    const bool high =
+        std::ranges::any_of(face.loops.front(), [&](std::uint32_t v) { return units(solid.solid.vertices[v]).z > z; });
+    const Polygon own = polygon_of(solid, face);
+    if (!high || !geometry::bounds(own.outer).overlaps(box)) continue;
+    const auto pieces = geometry::intersect(own, over);
+    if (!pieces) return true;
+    const Heights heights(solid, face);
+    for (const Polygon& piece : *pieces)
+      if (std::ranges::any_of(piece.outer, [&](Point2 p) { return heights.at(p) > z; })) return true;
+  }
+  return false;
+}
+
+/// The ground of a solid whose ground is at several heights, by height.
+auto grounds_of(const LabelledSolid& solid) -> std::map<double, std::vector<Polygon>> {
+  std::map<double, std::vector<Polygon>> out;
+  for (std::size_t f = 0; f < solid.classes.size(); ++f) {
+    if (solid.classes[f] != FaceClass::ground) continue;
+    const auto& face = solid.solid.faces[f];
+    out[units(solid.solid.vertices[face.loops.front().front()]).z].push_back(polygon_of(solid, face));
+  }
+  return out;
+}
+
+/// Solids above each other: whether what stands on the lower ground reaches to the higher one where they share it.
+auto meet_in_height(const LabelledSolid& a, const LabelledSolid& b) -> bool {
+  const auto of_a = grounds_of(a), of_b = grounds_of(b);
+  for (const auto& [za, ground_a] : of_a)
+    for (const auto& [zb, ground_b] : of_b) {
+      const auto& [lower, z] = za < zb ? std::pair(&a, zb) : std::pair(&b, za);
+      const bool same = za == zb;
+      if (any_shared(ground_a, ground_b, [&](const Polygon& over) {
+            return geometry::area(over) > 0 && (same || rises_above(*lower, z, over));
+          }))
+        return true;
+    }
+  return false;
+}
+
+}  // namespace
+
 auto share_ground(const LabelledSolid& a, const LabelledSolid& b) -> bool {
   if (has_eaves(a) || has_eaves(b) || !may_meet(a, b)) return false;
   const auto ground_a = ground_of(a), ground_b = ground_of(b);
+  if (box_of(a).least.z != box_of(b).least.z && !meet_in_height(a, b)) return false;
   return meet(ground_a, ground_b) || meet(overhang_of(a), ground_b) || meet(ground_a, overhang_of(b));
 }
 

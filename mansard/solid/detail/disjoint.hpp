@@ -12,7 +12,9 @@
 namespace mansard::solid::detail {
 
 /// Whether two solids share any area of ground at a common height, in whole units of files, exactly: validators find
-/// that they intersect then. Where that cannot be computed they do. Solids with overhanging eaves are not compared.
+/// that they intersect then. Of solids whose bases are at different heights, whether the lower one reaches the base of
+/// the other one where they share ground. Where that cannot be computed they do. Solids with overhanging eaves are not
+/// compared.
 [[nodiscard]] auto share_ground(const model::LabelledSolid& a, const model::LabelledSolid& b) -> bool;
 
 /// The same, or their walls pass through each other: by rounding, a wall that is not on shared corners leans a little,
