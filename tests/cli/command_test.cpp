@@ -145,7 +145,7 @@ TEST_F(Command, raises_footprints_along_one_profile_to_one_file) {
                  "-4,9");
   expect_refusal(run("extrude -q " + file + " -o " + at("out") + " --height-attribute hight"), 4, "roof-attribute",
                  "'height'");
-  expect_refusal(run("extrude -q " + file + " -o " + at("out") + " --roof-shape onion"), 4, "option-value", "mansard");
+  expect_refusal(run("extrude -q " + file + " -o " + at("out") + " --roof-shape tulip"), 4, "option-value", "mansard");
 }
 
 TEST_F(Command, gives_the_same_roofs_with_one_thread_and_two) {
