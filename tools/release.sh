@@ -73,11 +73,11 @@ done
 
 step "Debian packages"
 (cd "$build" && cpack -G DEB -B "$work/deb") > "$work/cpack.log" 2>&1 || fail "$(tail -20 "$work/cpack.log")"
-for package in "$work"/deb/*.deb; do  # again, by a program that takes every time and owner from the date of the release
+for package in "$work"/deb/*.deb; do  # again, by a program that takes all times from the date of the release
   rm -rf "$work/unpacked"
   dpkg-deb -R "$package" "$work/unpacked"
   find "$work/unpacked" -exec touch -h -d "@$SOURCE_DATE_EPOCH" {} +
-  dpkg-deb --root-owner-group -Zxz -b "$work/unpacked" "$made/$(basename "$package")" > /dev/null
+  dpkg-deb --threads-max=1 --root-owner-group -Zxz -b "$work/unpacked" "$made/$(basename "$package")" > /dev/null
 done
 rm -rf "$work/unpacked" "$work/deb"
 
