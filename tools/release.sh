@@ -73,11 +73,11 @@ done
 
 step "Debian packages"
 (cd "$build" && cpack -G DEB -B "$work/deb") > "$work/cpack.log" 2>&1 || fail "$(tail -20 "$work/cpack.log")"
-for package in "$work"/deb/*.deb; do  # again, by a program that takes every time and owner from the date of the release
+for package in "$work"/deb/*.deb; do  # again, by a program that takes all times from the date of the release
   rm -rf "$work/unpacked"
   dpkg-deb -R "$package" "$work/unpacked"
   find "$work/unpacked" -exec touch -h -d "@$SOURCE_DATE_EPOCH" {} +
-  dpkg-deb --root-owner-group -Zxz -b "$work/unpacked" "$made/$(basename "$package")" > /dev/null
+  dpkg-deb --threads-max=1 --root-owner-group -Zxz -b "$work/unpacked" "$made/$(basename "$package")" > /dev/null
 done
 rm -rf "$work/unpacked" "$work/deb"
 
@@ -86,7 +86,13 @@ step "wheel"
 wheel_backend.build_wheel('$made', {'build-dir': 'build/release'})" 2> "$work/wheel.log" > /dev/null || fail "$(tail -20 "$work/wheel.log")"
 
 step "plugin of QGIS, container, documentation"
-cp "$build/qgis/mansard.zip" "$made/mansard-qgis-$version.zip"
+# Again, without the times at which its files were made and read, which CMake's zip has.
+python3 -c 'import sys, zipfile
+with zipfile.ZipFile(sys.argv[1]) as old, zipfile.ZipFile(sys.argv[2], "w") as new:
+    for name in sorted(name for name in old.namelist() if not name.endswith("/")):
+        entry = zipfile.ZipInfo(name, (2000, 1, 1, 0, 0, 0))
+        entry.external_attr, entry.compress_type = 0o100644 << 16, zipfile.ZIP_DEFLATED
+        new.writestr(entry, old.read(name))' "$build/qgis/mansard.zip" "$made/mansard-qgis-$version.zip"
 sed "s/@VERSION@/$version/g" packaging/Dockerfile.in > "$made/$name.Dockerfile"
 rm -rf "$work/site"
 mkdir -p "$work/site"
