@@ -290,6 +290,22 @@ auto at_steps(const Polygon& part, const Polygon& piece, const Heights& measured
   return sound(part, out, options) ? std::optional(std::move(out)) : std::nullopt;
 }
 
+namespace {
+
+/// Whether two cuts whose sides were moved to where the scan has them became one.
+auto are_one(const Polygon& a, const Polygon& b) -> bool {
+  constexpr double share = 0.02;
+  const double in_a = geometry::area(a), in_b = geometry::area(b), most = share * std::max(in_a, in_b);
+  if (std::abs(in_a - in_b) > most) return false;
+  const auto common = geometry::intersect(a, b);
+  if (!common) return false;
+  double in_both = 0;
+  for (const Polygon& piece : *common) in_both += geometry::area(piece);
+  return in_a + in_b - 2 * in_both <= most;
+}
+
+}  // namespace
+
 auto propose(const Polygon& part, const Heights& measured, const Heights& model, double least_gain,
              const Options& options, const OnPlanes& points) -> std::vector<Proposal> {
   const std::size_t cells = measured.columns * measured.rows;
@@ -317,7 +333,7 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   std::vector<Proposal> out;
   for (Cut& cut : std::move(cuts).best()) {
     auto piece = at_steps(part, cut.polygon, measured, options);
-    if (!piece) continue;
+    if (!piece || std::ranges::any_of(out, [&](const Proposal& o) { return are_one(o.polygon, *piece); })) continue;
     std::string what = words_for(as_measured, cut, options);
     out.push_back({std::move(*piece), cut.gain, cut.errors.inside_mean, std::move(what), cut.shape == 0});
   }
