@@ -333,6 +333,15 @@ auto block_of(unsigned seed) -> Block {
   return {turned(part, turn), roof, {.turn = turn, .spacing = 0.4, .unseen = random() % 2 ? 0.2 : 0.0, .seed = seed}};
 }
 
+TEST(Propose, two_that_become_one_piece_are_proposed_once) {
+  const Block b = block_of(217817);
+  const auto all = propose(b.part, scanned(b.part, b.roof, b.scan), modelled(b.part, flat(9), b.scan), least_gain, {});
+  EXPECT_GT(all.size(), 1U);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT(difference(all[i].polygon, all[j].polygon), 0.01 * area(all[i].polygon));
+}
+
 TEST(Propose, guarantees_over_random_parts) {
   EXPECT_TRUE(rc::check("in the part, simple, apart, the same twice", [] {
     const Block b = block_of(*rc::gen::arbitrary<unsigned>());
