@@ -17,6 +17,8 @@ import shutil
 import subprocess
 import sys
 
+import val3dity
+
 CHUNK = 250
 SHAPES = """flat skillion gabled half-hipped hipped pyramidal gambrel mansard saltbox gabled_height_moved bellcast_gable
 side_hipped side_half-hipped hipped-and-gabled round cone dome onion butterfly sawtooth crosspitched many dutch""".split()
@@ -175,13 +177,9 @@ def main():
                 for name, count in some.items():
                     to[name] = to.get(name, 0) + count
             if asked.val3dity:
-                judged = folder / "val3dity.json"
-                subprocess.run([asked.val3dity, folder / "out" / "model.city.json", "-r", judged], stdout=subprocess.DEVNULL)
-                found = json.loads(judged.read_text(encoding="utf-8"))
+                found = val3dity.check(asked.val3dity, folder / "out" / "model.city.json", folder / "val3dity.json")
                 solids += sum(kind["total"] for kind in found["primitives_overview"] if kind["type"] == "Solid")
-                said += [f'val3dity: {f["id"]}: {e["code"]}' for f in found["features"] for e in
-                         f.get("errors", []) + [e for p in f.get("primitives", []) for e in p["errors"]]]
-                said += [f'val3dity: {e["code"]} of the file' for e in found.get("dataset_errors", [])]
+                said += val3dity.errors_of(found)
         else:
             said = [f"exit code {run.returncode}: {run.stderr[-300:]}"]
         faults += len(said)

@@ -18,6 +18,8 @@ import struct
 import subprocess
 import sys
 
+import val3dity
+
 CHUNK = 1500
 SHAPES = ["flat", "gabled", "hipped", "half-hipped", "pyramidal", "skillion", "gambrel", "mansard", "dome", "round", "saltbox",
           "no such shape"]
@@ -255,12 +257,8 @@ def main():
             for name, count in outcomes.items():
                 total[name] = total.get(name, 0) + count
             if asked.val3dity:
-                judged = folder / "val3dity.json"
-                subprocess.run([asked.val3dity, folder / "out" / "model.city.json", "-r", judged], stdout=subprocess.DEVNULL)
-                found = json.loads(judged.read_text(encoding="utf-8"))
-                said += [f'val3dity: {f["id"]}: {e["code"]}' for f in found["features"] for e in
-                         f.get("errors", []) + [e for p in f.get("primitives", []) for e in p["errors"]]]
-                said += [f'val3dity: {e["code"]} of the file' for e in found.get("dataset_errors", [])]
+                found = val3dity.check(asked.val3dity, folder / "out" / "model.city.json", folder / "val3dity.json")
+                said += val3dity.errors_of(found)
         else:
             said = [f"exit code {run.returncode}: {run.stderr[-300:]}"]
         faults += len(said)

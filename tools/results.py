@@ -20,6 +20,8 @@ import sys
 
 from PIL import Image
 
+import val3dity
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MANSARD = os.environ.get("MANSARD", "build/release/bin/mansard")
 OF_TRUTH = {"20": "laser scan, 20 points/m²", "8": "laser scan, 8 points/m²", "3": "laser scan, 3 points/m²",
@@ -56,8 +58,7 @@ def validate(out):
     valid = buildings = 0
     for model in sorted([*out.glob("accuracy/*/run/model.city.json"), *out.glob("shapes/*/*/model.city.json")]):
         report = out / "val3dity.json"
-        subprocess.run([os.environ["VAL3DITY"], model, "--report", report], stdout=subprocess.DEVNULL, check=False)
-        features = json.loads(report.read_text(encoding="utf-8"))["features"]
+        features = val3dity.check(os.environ["VAL3DITY"], model, report)["features"]
         buildings += len(features)
         valid += sum(1 for feature in features if feature["validity"])
         report.unlink()

@@ -110,7 +110,7 @@ TEST(Curves, count_as_one_face_for_each_pitch) {
   const Plan cone = all_alike(circle(6, 32), roof(5, 0.8), 20);
   const auto raised = mansard::extrude::raise(cone);
   const auto strips = detail::strips_of(cone, raised->solid);
-  EXPECT_TRUE(strips.any_curve);
+  EXPECT_LT(strips.count, raised->solid.faces.size());
   EXPECT_LT(strips.count, 8U) << "walls, roof, ground, and what rounding leaves at the apex";
   const Plan box = plan(rectangle(0, 0, 20, 8), {wall(6), wall(6), wall(6), wall(6)}, 6);
   const auto plain = mansard::extrude::raise(box);

@@ -119,6 +119,7 @@ void join_parts(model::Scene& scene, const std::string& subject, std::vector<bas
   if (std::ranges::none_of(members, Joining::is_part)) return;
   const auto owners = joining.owners();
   std::vector<bool> gone(members.size(), false);
+  constexpr std::size_t shown = 5;
   std::size_t parts = 0, buildings = 0, alone = 0;
   std::string names;
   const std::size_t asked = scene.footprints.size();
@@ -127,7 +128,6 @@ void join_parts(model::Scene& scene, const std::string& subject, std::vector<bas
     if (owners[m] && m < asked && *owners[m] >= asked) continue;  // asked for by itself
     auto& part = *members[m].footprint;
     if (!owners[m]) {
-      constexpr std::size_t shown = 5;
       if (m < asked && alone++ < shown) names += (names.empty() ? "" : ", ") + part.id;
       continue;
     }
@@ -153,7 +153,7 @@ void join_parts(model::Scene& scene, const std::string& subject, std::vector<bas
                                      std::to_string(alone) +
                                          " features tagged building:part are in no outline of a building; each is a "
                                          "building of its own: " +
-                                         names + (alone > 5 ? ", …" : ""),
+                                         names + (alone > shown ? ", …" : ""),
                                      subject));
 }
 

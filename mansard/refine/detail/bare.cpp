@@ -7,7 +7,6 @@
 
 #include "mansard/geometry/angles.hpp"
 #include "mansard/geometry/extent.hpp"
-#include "mansard/refine/detail/strips.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -67,9 +66,8 @@ auto carried(const model::Solid& solid, const FaceStrips& strips, const View& vi
 
 }  // namespace
 
-auto bare_faces(const model::Plan& plan, const model::Solid& solid, const View& view, const Site& site,
+auto bare_faces(const FaceStrips& strips, const model::Solid& solid, const View& view, const Site& site,
                 const Options& options) -> std::vector<std::uint32_t> {
-  const auto strips = strips_of(plan, solid);
   std::vector<std::uint32_t> faces_of(strips.count, 0);
   for (const auto strip : strips.of_face) ++faces_of[strip];
   const auto& o = options.bare;

@@ -205,12 +205,14 @@ auto bent_line(std::span<const Look> looks, double area_of_look, const Options& 
   if (places < fewest_pitches) return std::nullopt;
   const auto place = [&](std::size_t i) { return i * looks.size() / places; };
   const auto between = [&](std::size_t i, std::size_t j) { return sums[place(j)] - sums[place(i)]; };
-  const double weight = sums.back().weight, wanted = of_detail * options.detail,
-               most_noise = std::max(options.detail, options.lines.robust);
-  if (sums.back().residual() <= wanted * wanted * weight) return std::nullopt;  // it does not bend
+  // Squares, by weight: what is of no interest, and what noise leaves.
+  const auto squares = [&](double metres) { return metres * metres * sums.back().weight; };
+  const double wanted = squares(of_detail * options.detail),
+               most_noise = squares(std::max(options.detail, options.lines.robust));
+  if (sums.back().residual() <= wanted) return std::nullopt;  // it does not bend
   double in_places = 0;
   for (std::size_t i = 0; i < places; ++i) in_places += between(i, i + 1).residual();
-  if (in_places > most_noise * most_noise * weight) return std::nullopt;
+  if (in_places > most_noise) return std::nullopt;
   std::vector<std::vector<double>> own(places + 1, std::vector<double>(places + 1, 0));
   for (std::size_t i = 0; i < places; ++i)
     for (std::size_t j = i + 1; j <= places; ++j) own[i][j] = between(i, j).residual();
@@ -224,11 +226,11 @@ auto bent_line(std::span<const Look> looks, double area_of_look, const Options& 
         if (const double sum = least[k - 1][i] + own[i][j]; sum < least[k][j]) least[k][j] = sum, from[k][j] = i;
   }
   const double noise = least.back()[places];
-  if (noise > most_noise * most_noise * weight) return std::nullopt;
+  if (noise > most_noise) return std::nullopt;
   std::size_t k = 0;
   for (; k + 1 < least.size(); ++k) {
     const double left = least[k][places] - noise, gain = least[k][places] - least[k + 1][places];
-    if (left <= wanted * wanted * weight || gain * area_of_look < options.face_price) break;
+    if (left <= wanted || gain * area_of_look < options.face_price) break;
   }
   if (k + 1 < fewest_pitches) return std::nullopt;
   std::vector<RoofLine> lines;
@@ -238,7 +240,6 @@ auto bent_line(std::span<const Look> looks, double area_of_look, const Options& 
     if (!(some.weight > 0 && some.spread() > 0)) return std::nullopt;
     const double slope = std::clamp(some.joint() / some.spread(), 0.0, options.forms.max_slope);
     lines.push_back({some.line(slope).at_zero, slope});
-    if (i == 0) break;
   }
   std::ranges::reverse(lines);
   const auto bends = [&](auto order) { return std::ranges::is_sorted(lines, order, &RoofLine::slope); };

@@ -40,8 +40,7 @@ void losses_of(std::size_t count, const Kernel& kernel, const std::array<const d
 
 /// Chords of a curve are one edge. A wall within a profile is said with the level before it, which ends there: it has
 /// no numbers of its own.
-auto priced_faces(const model::Plan& plan, const model::Solid& sketch) -> double {
-  const auto strips = strips_of(plan, sketch);
+auto priced_faces(const FaceStrips& strips, const model::Solid& sketch) -> double {
   std::vector<bool> priced(strips.count, false);
   for (std::size_t f = 0; f < sketch.faces.size(); ++f) {
     const auto& face = sketch.faces[f];
@@ -180,30 +179,31 @@ auto Judge::again(const model::Plan& plan, double most) const -> std::optional<J
   const Known* known = known_ ? known_->find(plan) : nullptr;
   if (!known) return std::nullopt;
   Judged out{plan, known->sketch, {}, known->misfit, known->bare, 0, 0};
-  price(out);
+  price(out, options_.face_price * priced_faces(strips_of(plan, out.sketch), out.sketch));
   if (out.cost < most) out.view = view_of(out.sketch, site_);
   return out;
 }
 
 auto Judge::of(const model::Plan& plan, model::Solid sketch, double most) const -> std::optional<Judged> {
   // Sums of what is not negative, rounded, do not fall by what is added: each bound is one of the cost as priced below.
-  const double faces = options_.face_price * priced_faces(plan, sketch);
+  const auto strips = strips_of(plan, sketch);
+  const double faces = options_.face_price * priced_faces(strips, sketch);
   if (faces >= most) return std::nullopt;
   Judged out{plan, std::move(sketch), {}, 0, {}, 0, 0};
   out.view = cells_of(out.sketch, site_);
   out.misfit = site_.of_points ? misfit_of_points(out.sketch, out.view, most, faces)
                                : misfit_of(out.view, std::numeric_limits<double>::infinity(), most, faces);
   if (out.misfit + faces >= most) return std::nullopt;
-  out.bare = bare_faces(plan, out.sketch, out.view, site_, options_);
-  price(out);
+  out.bare = bare_faces(strips, out.sketch, out.view, site_, options_);
+  price(out, faces);
   if (known_) known_->add({plan, out.sketch, out.misfit, out.bare});
   return out;
 }
 
-void Judge::price(Judged& judged) const {
+void Judge::price(Judged& judged, double faces) const {
   // Evidence would have to come from elsewhere: as dear as a part.
   judged.unsupported = options_.part_price * static_cast<double>(judged.bare.size());
-  judged.cost = judged.unsupported + judged.misfit + options_.face_price * priced_faces(judged.plan, judged.sketch);
+  judged.cost = judged.unsupported + judged.misfit + faces;
 }
 
 }  // namespace mansard::refine::detail

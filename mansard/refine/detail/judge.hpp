@@ -97,8 +97,8 @@ class Judge {
     asked_.fetch_add(1, std::memory_order_relaxed);
     if (account_) account_->add(work_of(site_, corners_of(plan)));
   }
-  /// Fills in what the faces and what is unsupported cost, and the sum.
-  void price(Judged& judged) const;
+  /// Fills in what is unsupported costs, and the sum with what the faces cost.
+  void price(Judged& judged, double faces) const;
 
   const Site& site_;
   const Options& options_;

@@ -30,7 +30,6 @@ auto strips_of(const model::Plan& plan, const model::Solid& solid) -> FaceStrips
     out.count = static_cast<std::uint32_t>(solid.faces.size());
     return out;
   }
-  out.any_curve = true;
   std::map<std::array<std::uint32_t, 4>, std::uint32_t> known;  // by curve, profile, part and kind
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     const auto& face = solid.faces[f];

@@ -15,7 +15,6 @@ namespace mansard::refine::detail {
 struct FaceStrips {
   std::vector<std::uint32_t> of_face;
   std::uint32_t count = 0;
-  bool any_curve = false;  ///< else every face is its own
 };
 [[nodiscard]] auto strips_of(const model::Plan& plan, const model::Solid& solid) -> FaceStrips;
 
