@@ -209,6 +209,18 @@ describe("the scene", () => {
     expect(state.jobs.value).toEqual([read({ state: "done" })]);
   });
 
+  it("belongs to the project of the last event, which an older answer does not replace", async () => {
+    state.project.value = null;
+    answers["GET /api/project"] = () => project(); // answered before the inputs were accepted
+    answers["GET /api/jobs"] = () => {
+      actions.received({ type: "project", project: { ...project(), inputs: {} as api.Project["inputs"] } });
+      return { jobs: [read({ state: "done" })] };
+    };
+    await actions.refresh();
+    expect(state.project.value?.inputs).toEqual({});
+    await vi.waitFor(() => expect(state.scene.value).toEqual(scene));
+  });
+
   it("of a restarted server is not requested before it has been read again", async () => {
     state.jobs.value = [read({ state: "done" })];
     answers["GET /api/jobs"] = () => ({ jobs: [read({})] });

@@ -110,14 +110,19 @@ export async function begin(signal: AbortSignal) {
   await refresh();
 }
 
+/** The project of the newest event since `refresh` began. */
+let told: api.Project | null = null;
+
 /** Loads everything again, e.g. after the connection was lost. Run, selection and draft are kept if they still exist. */
 export async function refresh() {
   state.jobs.value = []; // entries found below arrived meanwhile; job numbers restart with every server
-  const [project, options, jobs] = await Promise.all([
+  told = null;
+  const [answer, options, jobs] = await Promise.all([
     attempt(client.project()),
     state.options.value ? state.options.value : attempt(client.options()),
     attempt(client.jobs()),
   ]);
+  const project = told ?? answer; // an event is never older than the answer
   if (!project) return;
   const answered = jobs?.jobs ?? [];
   const arrived = state.jobs.value;
@@ -669,7 +674,7 @@ function receiveJob(job: api.Job) {
 export function received(event: api.Event) {
   if (event.type === "job") receiveJob(event.job);
   else if (event.type === "project") {
-    state.project.value = event.project;
+    state.project.value = told = event.project;
     if (!event.project.inputs) state.scene.value = state.tiles.value = null;
     const gone = (open: state.OpenRun | null) => open && !event.project.runs.some((r) => r.id === state.runOf(open.id));
     if (gone(state.other.value)) state.other.value = null;
