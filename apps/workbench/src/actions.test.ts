@@ -210,7 +210,6 @@ describe("the scene", () => {
   });
 
   it("belongs to the project of the last event, which an older answer does not replace", async () => {
-    state.project.value = null;
     answers["GET /api/project"] = () => project(); // answered before the inputs were accepted
     answers["GET /api/jobs"] = () => {
       actions.received({ type: "project", project: { ...project(), inputs: {} as api.Project["inputs"] } });
