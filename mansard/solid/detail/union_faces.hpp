@@ -22,8 +22,8 @@ struct Union {
 [[nodiscard]] auto union_of(const Sheets& sheets, std::span<const model::LabelledSolid* const> parts) -> Union;
 
 /// Takes corners out that lie on a straight line between two faces; cuts faces that are not planar to `planar` metres,
-/// or have needles, into triangles. False where a face cannot be cut. `level`: corners of one roof with
-/// holes alone go into its plane before.
+/// or have needles, into pieces that are. False where a face cannot be cut. `level`: corners of one roof alone go into
+/// its plane before.
 [[nodiscard]] auto finish(Union& made, double planar, bool level = true) -> bool;
 
 }  // namespace mansard::solid::detail

@@ -1,4 +1,5 @@
-// The last step of a union: straight lines without corners in between, and faces that are planar or triangles.
+// The last step of a union: straight lines without corners in between, and faces that are planar, or cut into pieces
+// that are.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -6,6 +7,7 @@
 #include "mansard/solid/detail/delaunay.hpp"
 #include "mansard/solid/detail/fitted_plane.hpp"
 #include "mansard/solid/detail/measure.hpp"
+#include "mansard/solid/detail/planar_pieces.hpp"
 #include "mansard/solid/detail/union_faces.hpp"
 
 namespace mansard::solid::detail {
@@ -152,8 +154,7 @@ void level_pinned(model::LabelledSolid& model, const std::vector<std::uint8_t>& 
 }
 
 /// Corners of one roof alone, where its other faces are walls, put back into its plane in height: merging points has
-/// moved them in plan. Only where a roof with holes is not planar, which would be cut into many triangles; its plane is
-/// that of most of its corners.
+/// moved them in plan. Only where a roof is not planar and would be cut; its plane is that of most of its corners.
 void level_corners(model::LabelledSolid& model, double planar) {
   constexpr double most = 2e-3;  // m
   auto& [solid, classes] = model;
@@ -165,7 +166,7 @@ void level_corners(model::LabelledSolid& model, double planar) {
   std::vector<double> offsets;
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     const model::Face& face = solid.faces[f];
-    if (classes[f] != model::FaceClass::roof || face.normal.z < 1e-3 || face.loops.size() < 2) continue;
+    if (classes[f] != model::FaceClass::roof || face.normal.z < 1e-3) continue;
     if (fitted_plane(solid, face).furthest <= planar) continue;
     offsets.clear();
     for (const auto& loop : face.loops)
@@ -225,10 +226,13 @@ auto finish(Union& made, double planar, bool level) -> bool {
         continue;
       }
     }
-    for (const Corners& t : triangles) {
-      model::Face one{{{t[0], t[1], t[2]}}, face.kind, face.provenance, unit_normal(solid, t)};
-      add(std::move(one), f);
-    }
+    const auto good = [&](const model::Face& piece) {
+      const FittedPlane of_piece = fitted_plane(solid, piece);
+      std::vector<Corners> inside;
+      return is_flat(of_piece) && triangulator.append(piece, of_piece.normal, inside) &&
+             !has_needle(solid, of_piece.normal, std::move(inside));
+    };
+    for (auto& piece : planar_pieces(solid, face, triangles, good)) add(std::move(piece), f);
   }
   renumber(out.model.solid);
   made = std::move(out);

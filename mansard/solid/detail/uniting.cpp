@@ -116,7 +116,7 @@ auto pinned_between(const Sheets& sheets, const model::Solid& several) -> Sheets
 }
 
 /// The union of those solids of which there are sheets. It is made and checked near the origin, where no coordinate has
-/// more digits than another. `level`: roofs with holes are made planar where corners may move in height.
+/// more digits than another. `level`: roofs are made planar where corners may move in height.
 auto made_of(const Sheets& sheets, std::span<const LabelledSolid* const> parts, bool alone = true, bool level = true)
     -> Attempt {
   auto made = union_of(sheets, parts);
