@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 
 #include "fields.hpp"
+#include "mansard/refine/detail/pieces.hpp"
 #include "mansard/refine/detail/propose_regions.hpp"
 
 namespace mansard::refine::detail {
@@ -352,7 +353,7 @@ TEST(Propose, guarantees_over_random_parts) {
     RC_ASSERT(std::ssize(all) <= options.cuts.max_count && all.size() == again.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Polygon& piece = all[i].polygon;
-      RC_ASSERT(beyond(piece, b.part) < 1e-6);
+      RC_ASSERT(beyond(piece, b.part) < options.pieces.straight * mansard::refine::detail::around(b.part));
       RC_ASSERT(mansard::geometry::is_simple(piece));
       RC_ASSERT(area(piece) >= options.cuts.min_area - 1e-6);
       RC_ASSERT(area(b.part) - area(piece) >= options.cuts.min_area - 1e-6);
