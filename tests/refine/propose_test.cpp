@@ -4,7 +4,6 @@
 #include <rapidcheck.h>
 
 #include "fields.hpp"
-#include "mansard/refine/detail/pieces.hpp"
 #include "mansard/refine/detail/propose_regions.hpp"
 
 namespace mansard::refine::detail {
@@ -343,6 +342,16 @@ TEST(Propose, two_that_become_one_piece_are_proposed_once) {
       EXPECT_GT(difference(all[i].polygon, all[j].polygon), 0.01 * area(all[i].polygon));
 }
 
+TEST(Propose, sides_that_are_moved_end_in_the_part) {
+  for (const unsigned seed : {64752460U, 21141037U, 982539U}) {  // up to 0.022 m² were beyond
+    const Block b = block_of(seed);
+    const auto all =
+        propose(b.part, scanned(b.part, b.roof, b.scan), modelled(b.part, flat(9), b.scan), least_gain, {});
+    EXPECT_FALSE(all.empty()) << seed;
+    for (const auto& one : all) EXPECT_LT(beyond(one.polygon, b.part), 1e-6) << seed;
+  }
+}
+
 TEST(Propose, guarantees_over_random_parts) {
   EXPECT_TRUE(rc::check("in the part, simple, apart, the same twice", [] {
     const Block b = block_of(*rc::gen::arbitrary<unsigned>());
@@ -353,7 +362,7 @@ TEST(Propose, guarantees_over_random_parts) {
     RC_ASSERT(std::ssize(all) <= options.cuts.max_count && all.size() == again.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Polygon& piece = all[i].polygon;
-      RC_ASSERT(beyond(piece, b.part) < options.pieces.straight * mansard::refine::detail::around(b.part));
+      RC_ASSERT(beyond(piece, b.part) < 1e-6);
       RC_ASSERT(mansard::geometry::is_simple(piece));
       RC_ASSERT(area(piece) >= options.cuts.min_area - 1e-6);
       RC_ASSERT(area(b.part) - area(piece) >= options.cuts.min_area - 1e-6);

@@ -214,6 +214,12 @@ auto with_corners_of(const Polygon& part, const Polygon& piece, double same_plac
   return out;
 }
 
+auto total_area(const std::vector<Polygon>& polygons) -> double {
+  double sum = 0;
+  for (const Polygon& p : polygons) sum += geometry::area(p);
+  return sum;
+}
+
 /// Whether part and piece can be told apart by polygon operations: rounding at shared walls defeats them now and then.
 auto sound(const Polygon& part, const Polygon& piece, const Options& options) -> bool {
   const double nothing = options.pieces.straight * around(part), least_area = options.cuts.min_area;
@@ -221,14 +227,19 @@ auto sound(const Polygon& part, const Polygon& piece, const Options& options) ->
   const auto [whole, taken] = fitted(part, piece, options.pieces);
   const auto rest = geometry::subtract(whole, taken), beyond = geometry::subtract(taken, whole);
   if (!rest || !beyond) return false;
-  const auto total = [](const std::vector<Polygon>& polygons) {
-    double sum = 0;
-    for (const Polygon& p : polygons) sum += geometry::area(p);
-    return sum;
-  };
-  const double left = total(*rest), own = geometry::area(piece);
-  return total(*beyond) < nothing && std::abs(left + own - geometry::area(part)) < nothing && own >= least_area &&
+  const double left = total_area(*rest), own = geometry::area(piece);
+  return total_area(*beyond) < nothing && std::abs(left + own - geometry::area(part)) < nothing && own >= least_area &&
          left >= least_area;
+}
+
+/// Without the slivers outside of the part that tidying leaves: it moves corners by up to `Options::Pieces::slit`.
+auto inside_of(const Polygon& part, Polygon piece) -> Polygon {
+  constexpr double none = 1e-7;  // m²; coordinates of some 100 m are right to 1e-14 m, lengths of 100 m to 1e-9 m
+  const auto beyond = geometry::subtract(piece, part);
+  if (!beyond || total_area(*beyond) < none) return piece;
+  const auto inside = geometry::intersect(part, piece);
+  if (!inside || inside->empty()) return piece;
+  return *std::ranges::max_element(*inside, {}, [](const Polygon& p) { return geometry::area(p); });
 }
 
 auto metres(double value) -> std::string {
@@ -286,7 +297,14 @@ auto thinned(const Heights& heights, std::size_t every) -> Heights {
 auto at_steps(const Polygon& part, const Polygon& piece, const Heights& measured, const Options& options)
     -> std::optional<Polygon> {
   Polygon at_step = placed(part, piece, measured, options);
+  // A side that was moved ends on the line of the side beside it, which may be past a corner of the part.
+  if (at_step != piece) {
+    auto inside = carve::pieces_in_part(part, at_step, options.pieces);
+    if (inside.empty()) return std::nullopt;
+    at_step = std::move(inside.front());
+  }
   Polygon out = with_corners_of(part, without_slivers(part, std::move(at_step), options), options.pieces.slit);
+  out = inside_of(part, std::move(out));
   return sound(part, out, options) ? std::optional(std::move(out)) : std::nullopt;
 }
 

@@ -35,8 +35,7 @@ struct OnPlanes {
                             const Options& options) -> std::optional<geometry::Polygon>;
 
 /// The cuts worth trying, best first.
-///   1. Every polygon lies in the part, but for `Options::Pieces::straight` along the outline, is simple, and leaves at
-///      least `least_area` on either side.
+///   1. Every polygon lies in the part, is simple, and leaves at least `least_area` on either side.
 ///   2. No two are nearly the same cut.
 ///   3. The same input gives the same list, to the byte.
 /// Cost: cells × directions (two or three), with small constants.

@@ -314,15 +314,20 @@ auto outlines_of(const Raster& raster, const Raster& across, const Region& regio
   return out;
 }
 
-auto pieces_in_part(const Polygon& part, const Polygon& in_frame, const Frame& frame, const Options::Pieces& options)
+auto pieces_in_part(const Polygon& part, const Polygon& polygon, const Options::Pieces& options)
     -> std::vector<Polygon> {
-  const auto [whole, taken] = fitted(part, from_frame(in_frame, frame), options);
+  const auto [whole, taken] = fitted(part, polygon, options);
   auto pieces = geometry::intersect(whole, taken);
   if (!pieces) return {};
   auto out = tidied(std::move(*pieces), options);
   rank(
       out, [](const Polygon& piece) { return -geometry::area(piece); }, same_area);
   return out;
+}
+
+auto pieces_in_part(const Polygon& part, const Polygon& in_frame, const Frame& frame, const Options::Pieces& options)
+    -> std::vector<Polygon> {
+  return pieces_in_part(part, from_frame(in_frame, frame), options);
 }
 
 }  // namespace mansard::refine::detail::carve

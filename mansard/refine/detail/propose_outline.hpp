@@ -31,7 +31,10 @@ struct Rectangle {
 [[nodiscard]] auto aligned(const Raster& raster, double at, double from, double to, const Options::Outlines& options)
     -> double;
 
-/// Polygon in the frame, back in the plane and clipped to the part: its pieces, the largest first.
+/// Polygon clipped to the part: its pieces, the largest first.
+[[nodiscard]] auto pieces_in_part(const geometry::Polygon& part, const geometry::Polygon& polygon,
+                                  const Options::Pieces& options) -> std::vector<geometry::Polygon>;
+/// The same of one in the frame.
 [[nodiscard]] auto pieces_in_part(const geometry::Polygon& part, const geometry::Polygon& in_frame, const Frame& frame,
                                   const Options::Pieces& options) -> std::vector<geometry::Polygon>;
 
