@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mansard/base/statistics.hpp"
 #include "mansard/solid/detail/measure.hpp"
 
 namespace mansard::solid::detail {
@@ -76,6 +77,13 @@ auto fitted_plane(const model::Solid& solid, const model::Face& face) -> FittedP
     for (const auto v : loop)
       plane.furthest = std::max(plane.furthest, std::abs(dot(plane.normal, solid.vertices[v] - plane.middle)));
   return plane;
+}
+
+auto offset_of_most(const model::Solid& solid, const model::Face& face) -> double {
+  std::vector<double> offsets;
+  for (const auto& loop : face.loops)
+    for (const auto v : loop) offsets.push_back(dot(face.normal, solid.vertices[v]));
+  return base::median(std::move(offsets));
 }
 
 }  // namespace mansard::solid::detail

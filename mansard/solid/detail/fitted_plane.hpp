@@ -14,4 +14,8 @@ struct FittedPlane {
 /// By least squares of the distances of the corners of all loops, as validators take it.
 [[nodiscard]] auto fitted_plane(const model::Solid& solid, const model::Face& face) -> FittedPlane;
 
+/// How far along its normal the plane of most corners of a face is from the origin, m: the median of their distances,
+/// which a few corners that rounding moved do not change.
+[[nodiscard]] auto offset_of_most(const model::Solid& solid, const model::Face& face) -> double;
+
 }  // namespace mansard::solid::detail

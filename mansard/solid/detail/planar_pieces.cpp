@@ -17,22 +17,14 @@ using model::Face;
 using model::Solid;
 using Loop = std::vector<std::uint32_t>;
 
-auto piece_of(const Solid& solid, const Face& face, Loop loop) -> Face {
-  Face piece{{std::move(loop)}, face.kind, face.provenance, {}};
-  piece.normal = fitted_plane(solid, piece).normal;
-  return piece;
-}
+auto piece_of(const Face& face, Loop loop) -> Face { return {{std::move(loop)}, face.kind, face.provenance, {}}; }
 
 /// Corners of the outer loop, those furthest from the plane of most corners first.
 auto furthest_first(const Solid& solid, const Face& face) -> std::vector<std::uint32_t> {
-  std::vector<double> offsets;
-  for (const auto& loop : face.loops)
-    for (const auto v : loop) offsets.push_back(dot(face.normal, solid.vertices[v]));
-  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-  std::ranges::nth_element(offsets, middle);
+  const double middle = offset_of_most(solid, face);
   auto corners = face.loops[0];
   std::ranges::stable_sort(corners, std::greater{},
-                           [&](auto v) { return std::abs(dot(face.normal, solid.vertices[v]) - *middle); });
+                           [&](auto v) { return std::abs(dot(face.normal, solid.vertices[v]) - middle); });
   return corners;
 }
 
@@ -51,10 +43,8 @@ auto ear_at(const Solid& solid, const Face& face, std::size_t i) -> std::optiona
       const Point3 p = solid.vertices[v];
       if (side(t[0], t[1], p) >= 0 && side(t[1], t[2], p) >= 0 && side(t[2], t[0], p) >= 0) return std::nullopt;
     }
-  Face ear{{{t[0], t[1], t[2]}}, face.kind, face.provenance, {}};
-  const FittedPlane plane = fitted_plane(solid, ear);
-  if (plane.narrow < model::narrowest_face) return std::nullopt;
-  ear.normal = plane.normal;
+  Face ear = piece_of(face, {t.begin(), t.end()});
+  if (fitted_plane(solid, ear).narrow < model::narrowest_face) return std::nullopt;
   return ear;
 }
 
@@ -73,7 +63,6 @@ auto without_corners(const Solid& solid, const Face& face, const std::function<b
     pieces.push_back(std::move(*ear));
     loop.erase(at);
     if (!good(rest)) continue;
-    rest.normal = fitted_plane(solid, rest).normal;
     pieces.insert(pieces.begin(), std::move(rest));
     return pieces;
   }
@@ -104,7 +93,7 @@ auto put_together(const Solid& solid, const Face& face, const std::vector<Corner
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> piece_at;  // by side
   for (const Corners& t : triangles) {
     for (std::size_t k = 0; k < 3; ++k) piece_at[{t[k], t[(k + 1) % 3]}] = pieces.size();
-    pieces.push_back(piece_of(solid, face, {t.begin(), t.end()}));
+    pieces.push_back(piece_of(face, {t.begin(), t.end()}));
   }
   struct Diagonal {
     std::uint32_t a, b;
@@ -120,7 +109,7 @@ auto put_together(const Solid& solid, const Face& face, const std::vector<Corner
     if (one == two) continue;
     auto loop = around(pieces[one].loops[0], pieces[two].loops[0], a, b);
     if (!loop) continue;
-    Face both = piece_of(solid, face, std::move(*loop));
+    Face both = piece_of(face, std::move(*loop));
     if (!good(both)) continue;
     for (auto& [side, piece] : piece_at)
       if (piece == two) piece = one;
@@ -136,7 +125,9 @@ auto put_together(const Solid& solid, const Face& face, const std::vector<Corner
 auto planar_pieces(const Solid& solid, const Face& face, const std::vector<Corners>& triangles,
                    const std::function<bool(const Face&)>& good) -> std::vector<Face> {
   auto pieces = without_corners(solid, face, good);
-  return !pieces.empty() && pieces.size() < triangles.size() ? pieces : put_together(solid, face, triangles, good);
+  if (pieces.empty() || pieces.size() >= triangles.size()) pieces = put_together(solid, face, triangles, good);
+  for (Face& piece : pieces) piece.normal = fitted_plane(solid, piece).normal;
+  return pieces;
 }
 
 }  // namespace mansard::solid::detail

@@ -163,21 +163,16 @@ void level_corners(model::LabelledSolid& model, double planar) {
     if (classes[f] != model::FaceClass::wall && classes[f] != model::FaceClass::party_wall)
       for (const auto& loop : solid.faces[f].loops)
         for (const auto v : loop) ++slopes[v];
-  std::vector<double> offsets;
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     const model::Face& face = solid.faces[f];
     if (classes[f] != model::FaceClass::roof || face.normal.z < 1e-3) continue;
     if (fitted_plane(solid, face).furthest <= planar) continue;
-    offsets.clear();
-    for (const auto& loop : face.loops)
-      for (const auto v : loop) offsets.push_back(dot(face.normal, solid.vertices[v]));
-    const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-    std::ranges::nth_element(offsets, middle);
+    const double middle = offset_of_most(solid, face);
     for (const auto& loop : face.loops)
       for (const auto v : loop) {
         if (slopes[v] != 1) continue;
         Point3& p = solid.vertices[v];
-        const double off = (dot(face.normal, p) - *middle) / face.normal.z;
+        const double off = (dot(face.normal, p) - middle) / face.normal.z;
         if (std::abs(off) < most) p.z = std::round((p.z - off) * quanta_per_metre) / quanta_per_metre;
       }
   }
@@ -193,7 +188,7 @@ auto finish(Union& made, double planar, bool level) -> bool {
   Union out;
   out.model.solid.vertices = solid.vertices;
   Triangulator triangulator(solid);
-  std::vector<Corners> triangles, triangles_of_rest;
+  std::vector<Corners> triangles, of_piece;
   const auto add = [&](model::Face face, std::size_t from) {
     out.model.solid.faces.push_back(std::move(face));
     out.model.classes.push_back(classes[from]);
@@ -215,23 +210,18 @@ auto finish(Union& made, double planar, bool level) -> bool {
       add(std::move(face), f);
       continue;
     }
-    if (model::Face rest = face; true) {
-      auto cut = without_thin_corners(solid, made.pinned, rest);
-      triangles_of_rest.clear();
-      const FittedPlane of_rest = fitted_plane(solid, rest);
-      if (!cut.empty() && is_flat(of_rest) && triangulator.append(rest, of_rest.normal, triangles_of_rest) &&
-          !has_needle(solid, of_rest.normal, triangles_of_rest)) {
-        add(std::move(rest), f);
-        for (auto& one : cut) add(std::move(one), f);
-        continue;
-      }
-    }
     const auto good = [&](const model::Face& piece) {
-      const FittedPlane of_piece = fitted_plane(solid, piece);
-      std::vector<Corners> inside;
-      return is_flat(of_piece) && triangulator.append(piece, of_piece.normal, inside) &&
-             !has_needle(solid, of_piece.normal, std::move(inside));
+      of_piece.clear();
+      const FittedPlane found = fitted_plane(solid, piece);
+      return is_flat(found) && triangulator.append(piece, found.normal, of_piece) &&
+             !has_needle(solid, found.normal, of_piece);
     };
+    model::Face rest = face;
+    if (auto cut = without_thin_corners(solid, made.pinned, rest); !cut.empty() && good(rest)) {
+      add(std::move(rest), f);
+      for (auto& one : cut) add(std::move(one), f);
+      continue;
+    }
     for (auto& piece : planar_pieces(solid, face, triangles, good)) add(std::move(piece), f);
   }
   renumber(out.model.solid);
