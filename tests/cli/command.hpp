@@ -57,9 +57,10 @@ class Command : public testing::Test {
   }
   [[nodiscard]] auto at(const std::string& name) const -> std::string { return (folder_ / name).string(); }
 
+  /// In the folder of the test: commands that messages name have relative paths, and leave files there.
   auto run(const std::string& arguments) const -> Outcome {
-    const std::string command =
-        std::string(MANSARD_BINARY) + " " + arguments + " >" + at("stdout") + " 2>" + at("stderr") + " </dev/null";
+    const std::string command = "cd " + at("") + " && " + std::string(MANSARD_BINARY) + " " + arguments + " >" +
+                                at("stdout") + " 2>" + at("stderr") + " </dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(at("stdout")), read(at("stderr"))};
   }
