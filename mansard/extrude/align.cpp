@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "mansard/extrude/detail/corner_edges.hpp"
 #include "mansard/extrude/detail/footprint.hpp"
 #include "mansard/extrude/detail/grid.hpp"
 #include "mansard/extrude/detail/lines.hpp"
@@ -104,7 +105,8 @@ void share_lines(std::vector<Wall>& walls, const std::vector<std::vector<std::si
 /// A plan with some of its walls on others' lines.
 class Moved {
  public:
-  Moved(const Plan& plan, const Footprint& before, double most) : plan_(plan), out_(before), most_(most) {}
+  Moved(const Plan& plan, const detail::Source& source, const Footprint& before, const Options& options)
+      : plan_(plan), source_(source), options_(options), out_(before), most_(options.tolerance / 2) {}
 
   /// Puts a wall on the line of another.
   void put(const Wall& wall, const Wall& other, const Footprint& owner) {
@@ -126,13 +128,13 @@ class Moved {
   }
 
   /// The canonical plan where nothing was to be changed, or where it cannot be.
-  auto plan(const Options& options) -> Plan {
+  auto plan() -> Plan {
     std::ranges::sort(put_, {}, [](const Put& p) { return -p.wall.length; });
     const auto corners = out_.corners;
     while (!put_.empty()) {
       if (!place_corners(corners)) continue;
       if (!detail::clash_in(out_.corners))
-        if (Plan made = as_plan(); stays(made, options)) return made;
+        if (Plan made = as_plan(); stays(made, options_)) return made;
       take_back(std::prev(put_.end()));
     }
     out_.corners = corners;
@@ -159,6 +161,7 @@ class Moved {
         ring.profile_of_edge.push_back(from.profile_of_edge[edge]);
         if (!from.overhang_of_edge.empty()) ring.overhang_of_edge.push_back(from.overhang_of_edge[edge]);
       }
+      detail::put_corner_edges(ring, from, out_, r, source_, options_.tolerance);
     }
     return made;
   }
@@ -230,6 +233,8 @@ class Moved {
   }
 
   const Plan& plan_;
+  const detail::Source& source_;
+  const Options& options_;
   Footprint out_;
   std::vector<Put> put_;  ///< the longest first
   double most_;           ///< m; no corner moves farther
@@ -239,12 +244,15 @@ class Moved {
 
 auto align(std::span<const Plan> plans, const Options& options) -> std::vector<std::optional<Plan>> {
   const double near = options.tolerance / 2;
+  std::vector<std::optional<detail::Source>> sources(plans.size());
   std::vector<std::optional<Footprint>> footprints(plans.size());
   std::vector<geometry::Box2> boxes(plans.size());
   base::parallel_for(plans.size(), [&](std::size_t p) {
-    const auto source = detail::prepared(plans[p]);
+    auto source = detail::prepared(plans[p]);
+    if (!source) return;
+    sources[p] = std::move(*source);
     std::string why;
-    if (source) footprints[p] = detail::canonical(*source, options, why);
+    footprints[p] = detail::canonical(*sources[p], options, why);
     if (footprints[p]) boxes[p] = geometry::bounds(plans[p].outer.points).grown(2 * options.tolerance);
   });
   std::vector<std::vector<std::size_t>> neighbours(plans.size());
@@ -267,10 +275,10 @@ auto align(std::span<const Plan> plans, const Options& options) -> std::vector<s
   std::vector<std::optional<Plan>> out(plans.size());
   base::parallel_for(plans.size(), [&](std::size_t p) {
     if (!meets[p]) return;
-    Moved moved(plans[p], *footprints[p], near);
+    Moved moved(plans[p], *sources[p], *footprints[p], options);
     for (const Wall* wall : of_plan[p])
       if (const Wall& line = walls[wall->line]; line.plan != p) moved.put(*wall, line, *footprints[line.plan]);
-    if (auto plan = moved.plan(options); !(plan == plans[p])) out[p] = std::move(plan);
+    if (auto plan = moved.plan(); !(plan == plans[p])) out[p] = std::move(plan);
   });
   return out;
 }

@@ -3,13 +3,15 @@
 #include <set>
 
 #include "mansard/base/text.hpp"
+#include "mansard/extrude/detail/corner_edges.hpp"
 #include "mansard/extrude/detail/footprint.hpp"
 #include "mansard/extrude/detail/source.hpp"
 
 namespace mansard::extrude {
 namespace {
 
-auto ring_of(const detail::Footprint& footprint, std::size_t r, const model::PlanRing& from) -> model::PlanRing {
+auto ring_of(const detail::Footprint& footprint, std::size_t r, const model::PlanRing& from,
+             const detail::Source& source, const Options& options) -> model::PlanRing {
   model::PlanRing ring;
   for (std::size_t i = 0; i < footprint.rings[r].size(); ++i) {
     const detail::ExactPoint& p = footprint.corners[r][i];
@@ -18,6 +20,7 @@ auto ring_of(const detail::Footprint& footprint, std::size_t r, const model::Pla
     ring.profile_of_edge.push_back(from.profile_of_edge[edge]);
     if (!from.overhang_of_edge.empty()) ring.overhang_of_edge.push_back(from.overhang_of_edge[edge]);
   }
+  detail::put_corner_edges(ring, from, footprint, r, source, options.tolerance);
   return ring;
 }
 
@@ -60,9 +63,9 @@ auto canonical(const model::Plan& plan, const Options& options) -> base::Result<
   Canonical made;
   made.plan.base = plan.base;
   made.plan.cap = plan.cap;
-  made.plan.outer = ring_of(*footprint, 0, plan.outer);
+  made.plan.outer = ring_of(*footprint, 0, plan.outer, *source, options);
   for (std::size_t h = 0; h < plan.holes.size(); ++h)
-    made.plan.holes.push_back(ring_of(*footprint, h + 1, plan.holes[h]));
+    made.plan.holes.push_back(ring_of(*footprint, h + 1, plan.holes[h], *source, options));
   for (const auto& profile : plan.profiles) {
     auto onto_grid = detail::canonical_profile(profile);
     made.plan.profiles.push_back(std::move(onto_grid.profile));

@@ -15,7 +15,9 @@ struct Canonical {
   /// Corners are the doubles nearest to where the exact lines meet; profiles are multiples of 2^-16 m. Rings and
   /// profiles are the input's, in its order; rings are oriented.
   model::Plan plan;
-  double moved = 0;  ///< m; no point of either outline is farther than this from the other; at most Options::tolerance
+  /// m; no point of either outline is farther than this from the other, but for corner edges, which are all of one
+  /// length; at most Options::tolerance
+  double moved = 0;
   std::size_t repeated_points = 0;        ///< dropped
   std::size_t straightened = 0;           ///< corners at turns under Options::merge_angle, dropped
   std::size_t collinear = 0;              ///< corners exactly between their neighbours, dropped

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mansard/base/text.hpp"
+#include "mansard/extrude/detail/corner_edges.hpp"
 #include "mansard/extrude/detail/footprint.hpp"
 #include "mansard/extrude/detail/narrow.hpp"
 #include "mansard/extrude/detail/outlines.hpp"
@@ -68,38 +69,59 @@ auto tried(const detail::Footprint& footprint, const model::Plan& plan, const Op
   return std::nullopt;
 }
 
+/// The outline with what it does not have by itself: edges at corners, and holes that go on with a slope, which may be
+/// that of such an edge. None where it has all. `moved`: m, that its lines were moved before.
+auto completed(const detail::Footprint& outline, const detail::Source& source, const Options& options, double moved = 0)
+    -> std::optional<detail::Footprint> {
+  if (source.corner_edges.empty()) return detail::continued(outline, moved);
+  auto with_corners = detail::with_corner_edges(outline, source, options.tolerance);
+  auto out = detail::continued(with_corners, moved);
+  return out ? std::move(out) : std::move(with_corners);
+}
+
+auto edges_in(const detail::Footprint& footprint) -> std::size_t {
+  std::size_t edges = 0;
+  for (const auto& ring : footprint.rings) edges += ring.size();
+  return edges;
+}
+
 /// Canonical footprint → solid; nothing, and why, if it cannot be.
 auto attempt(const detail::Source& source, const model::Plan& plan, const Options& options, const base::Run& run,
              std::vector<base::Diagnostic>& warnings, std::string& why) -> std::optional<Sound> {
-  auto footprint = detail::canonical(source, options, why);
-  if (!footprint) return std::nullopt;
-  // Nudges are made of the footprint as it was: what they move has to be put on one plane again.
-  auto outline = footprint;
-  if (auto on_one_plane = detail::continued(*footprint)) footprint = std::move(on_one_plane);
-  auto solid = tried(*footprint, plan, options, run, nullptr, why);
+  // Nudges are made of the outline alone: what they move has to be put on one plane again.
+  const auto outline = detail::canonical(source, options, why);
+  if (!outline) return std::nullopt;
+  auto footprint = completed(*outline, source, options).value_or(*outline);
+  auto solid = tried(footprint, plan, options, run, nullptr, why);
   // Vertical walls that meet in a line exactly: the right answer is not a manifold. A little less or more parts them.
   for (int nudge = 0; !solid && nudge < detail::most_nudges && !run.cancelled(); ++nudge) {
     std::string how, reason;
     auto other = detail::nudged(*outline, nudge, options, how);
     if (!other) continue;
-    if (auto on_one_plane = detail::continued(*other, other->moved - outline->moved)) other = std::move(on_one_plane);
+    if (auto all = completed(*other, source, options, other->moved - outline->moved)) other = std::move(all);
     solid = tried(*other, plan, options, run, nullptr, reason);
     if (!solid) continue;
     warnings.push_back(base::warning("extrude-nudged", how.append(": ").append(why)));
-    footprint = std::move(other);
+    footprint = *std::move(other);
   }
   if (solid && options.overhang > 0) {
     std::string hindrance;
     // No hindrance is told where there is nothing that could overhang.
-    if (const auto eaves = detail::eaves_of(*footprint, detail::on_grid(plan.cap), options, hindrance))
-      if (auto roofed = tried(*footprint, plan, options, run, &*eaves, hindrance)) solid = std::move(roofed);
+    if (const auto eaves = detail::eaves_of(footprint, detail::on_grid(plan.cap), options, hindrance))
+      if (auto roofed = tried(footprint, plan, options, run, &*eaves, hindrance)) solid = std::move(roofed);
     if (!hindrance.empty()) warnings.push_back(base::warning("extrude-overhang", hindrance));
   }
   constexpr double worth_telling = 0.01;  // m; decides about the warning alone
-  if (solid && footprint->moved > worth_telling)
+  if (solid && footprint.moved > worth_telling)
     warnings.push_back(base::warning(
         "extrude-straightened",
-        "shallow turns were straightened; the outline moved by up to " + base::to_text(footprint->moved, 3) + " m"));
+        "shallow turns were straightened; the outline moved by up to " + base::to_text(footprint.moved, 3) + " m"));
+  const std::size_t wanted = edges_in(*outline) + source.corner_edges.size(), made = edges_in(footprint);
+  if (solid && made < wanted)
+    warnings.push_back(base::warning(
+        "extrude-corner-edge", std::to_string(wanted - made) + " of " + std::to_string(source.corner_edges.size()) +
+                                   " edges at corners were left out, with their roofs: the walls beside them have "
+                                   "other directions now"));
   return solid;
 }
 
@@ -111,8 +133,8 @@ auto after_sweep(const model::Plan& plan, const Options& options, const base::Ru
   std::string why;
   try {
     if (const detail::Footprint* footprint = detail::canonical_outline(*source, options, why)) {
-      const auto on_one_plane = detail::continued(*footprint);
-      if (on_one_plane) footprint = &*on_one_plane;
+      const auto with_all = completed(*footprint, *source, options);
+      if (with_all) footprint = &*with_all;
       return use(*footprint, detail::sweep(*footprint, detail::on_grid(plan.cap), run));
     }
   } catch (const detail::Broken& broken) {
@@ -207,6 +229,8 @@ auto codes() -> std::vector<base::Code> {
        "Vertical walls met exactly in a line, which no manifold can; runs were shortened by up to 1 %, or walls moved "
        "by up to 3 mm.",
        "Change a setback or a wall by a few millimetres.", 0},
+      {"extrude-corner-edge", "An edge at a corner, which gives a roof a direction of its own, could not be made.",
+       "Give the edge a direction between those of the walls beside it, at least half a degree from both.", 1},
       {"extrude-overhang", "A building got no overhanging eaves, or not all around.",
        "Give its roof edges eaves at one height above vertical walls, and less overhang where walls are close.", 0},
       {"extrude-simplified",

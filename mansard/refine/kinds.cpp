@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mansard/base/statistics.hpp"
+#include "mansard/extrude/corner_edges.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/refine/detail/forms.hpp"
 #include "mansard/refine/detail/judge.hpp"
@@ -304,9 +305,15 @@ auto to_string(Kind kind) -> std::string_view {
   return names[static_cast<std::size_t>(kind)];
 }
 
-auto roof_of(Kind kind, const model::Plan& plan, const std::vector<bool>& shared, const rays::Scene& mesh,
+auto roof_of(Kind kind, const model::Plan& given, const std::vector<bool>& shared_edges, const rays::Scene& mesh,
              const Options& options, const extrude::Options& raising, const base::Run& run)
     -> base::Result<model::Plan> {
+  // The directions of the roof before are no sides of this one.
+  const auto at_corner = extrude::corner_edges_of(given.outer.points);
+  const Plan plan = extrude::without_corner_edges(given);
+  std::vector<bool> shared;
+  for (std::size_t i = 0; i < shared_edges.size(); ++i)
+    if (!at_corner[i]) shared.push_back(shared_edges[i]);
   const detail::Work work(mesh, nullptr, options, raising, run);
   const Site site = work.look(model::polygon_of(plan), plan.base);
   if (site.cells.empty()) return unseen();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "mansard/extrude/corner_edges.hpp"
 #include "scans.hpp"
 
 namespace {
@@ -107,6 +108,20 @@ TEST(Fitted, roofs_keep_their_form_and_move_to_the_scan) {
   ASSERT_TRUE(made);
   EXPECT_THAT(pitched_sides(*made), ElementsAre(0, 2));
   EXPECT_LT(error(*made, truth), 0.05);
+}
+
+// A plan whose roof has a direction of its own: another roof has the walls' again.
+TEST(Kinds, are_made_without_the_corner_edges_of_the_roof_before) {
+  const Plan truth = plan(house(), {roof(5, 0.7), roof(5, 0.7), roof(5, 0.7), roof(5, 0.7)}, 12);
+  const auto mesh = scan({truth});
+  Plan before = flat_house();
+  auto ring = extrude::with_corner_edge(before.outer, 1, normalised(geometry::Point2{1, 4}), 0);
+  ASSERT_TRUE(ring);
+  before.outer = *std::move(ring);
+  const Plan made = roof_of(Kind::hip, before, mesh, {false, false, true, false, false});
+  EXPECT_EQ(made.outer.points.size(), 4U);
+  EXPECT_EQ(pitched_sides(made).size(), 4U);
+  EXPECT_LT(error(made, truth), 0.06);
 }
 
 }  // namespace

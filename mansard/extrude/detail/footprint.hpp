@@ -79,9 +79,16 @@ struct SourceRing {
   std::vector<std::uint32_t> edge;     ///< the plan's edge index
   friend auto operator==(const SourceRing&, const SourceRing&) -> bool = default;
 };
+/// An edge of the plan that is no wall (corner_edges.hpp), taken off its ring.
+struct CornerEdge {
+  std::size_t ring = 0;                 ///< of the source
+  geometry::Point2 corner, along;       ///< metres; unit
+  std::uint32_t profile = 0, edge = 0;  ///< the plan's edge index
+};
 struct Source {
   std::vector<SourceRing> rings;  ///< outer first
   std::vector<model::Profile> profiles;
+  std::vector<CornerEdge> corner_edges;
   std::size_t repeated_points = 0;  ///< dropped
 };
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "mansard/base/text.hpp"
+#include "mansard/extrude/detail/corner_edges.hpp"
 #include "mansard/extrude/detail/grid.hpp"
 
 namespace mansard::extrude::detail {
@@ -153,6 +154,7 @@ auto prepared(const model::Plan& plan) -> base::Result<Source> {
   for (std::size_t r = 0; r < rings.size(); ++r) {
     source.rings.push_back(ring_of(*rings[r], origin, r == 0, source.repeated_points));
     source.rings.back().ring = static_cast<std::uint32_t>(r);
+    for (auto& edge : without_corner_edges(source.rings.back(), r)) source.corner_edges.push_back(edge);
     grid.push_back(on_fine_grid(source.rings.back().points, origin));
     if (grid.back().size() < 3)
       return base::error(r == 0 ? "extrude-no-area" : "extrude-not-simple",

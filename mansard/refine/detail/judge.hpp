@@ -54,6 +54,12 @@ class Judge {
   /// mostly known before all of it was compared.
   [[nodiscard]] auto cheaper(const model::Plan& plan, double than) const -> std::optional<Judged>;
 
+  /// Whether a solid can be made of the plan as it is, and not only a sketch.
+  [[nodiscard]] auto stands(const model::Plan& plan) const -> bool {
+    const auto raised = extrude::raise(plan, raising_, run_);
+    return raised && raised->outcome == extrude::Outcome::full;
+  }
+
   /// m²·m²: of a roof, cut off at `cap`, m above the base. A sum that reaches `most` together with what is `paid`
   /// already may end there.
   [[nodiscard]] auto misfit_of(const View& view, double cap = std::numeric_limits<double>::infinity(),

@@ -14,6 +14,7 @@
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/refit.hpp"
 #include "mansard/refine/detail/supported.hpp"
+#include "mansard/refine/detail/turned.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -138,6 +139,36 @@ auto descend(Judged judged, const Draft& draft, const Judge& judge) -> Judged {
   return judged;
 }
 
+/// Side after side a wall instead of its roof, where that is cheaper.
+auto with_fewer_pitches(Judged judged, const Judge& judge) -> Judged {
+  for (std::size_t p = 0; p < judged.plan.profiles.size(); ++p) {
+    if (is_wall(judged.plan.profiles[p]) || judge.is_tired(judged.plan)) continue;
+    Plan plan = judged.plan;
+    plan.profiles[p] = wall(plan.profiles[p][1].height, judge.options().forms);
+    if (auto next = judge.cheaper(plan, judged.cost)) judged = std::move(*next);
+  }
+  return judged;
+}
+
+/// Roof planes that rise in another direction than across a wall, one after the other, as long as that pays. Pitches
+/// that made up for one go.
+auto turn(Judged judged, const Judge& judge) -> Judged {
+  for (std::int64_t round = 0; round < judge.options().search.rounds; ++round) {
+    std::optional<Judged> best;
+    for (const Plan& plan : turned_roofs(judged, judge)) {
+      if (judge.is_tired(plan)) break;
+      auto next = judge(plan);
+      if (!next) continue;
+      *next = settle(std::move(*next), judge);
+      if (cheaper(next->cost, best ? best->cost : judged.cost, judge.options().same_cost) && judge.stands(next->plan))
+        best = std::move(*next);
+    }
+    if (!best) break;
+    judged = settle(with_fewer_pitches(std::move(*best), judge), judge);
+  }
+  return judged;
+}
+
 /// A roof that nothing was seen of, not above the crown that hides it.
 auto below_ceilings(Judged judged, const Judge& judge) -> Judged {
   std::vector<double> heights;
@@ -236,6 +267,7 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
     best = supported(std::move(best), judge);
     if (best.cost > options.round_gain * cost) break;
   }
+  if (judge.wrong(best) >= faces_apart) best = turn(std::move(best), judge);
   if (best.plan != before) changed.push_back(change_of(before, best.plan) + error_of(misfit, best.misfit, judge));
   return best;
 }

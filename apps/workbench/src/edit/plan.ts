@@ -1,5 +1,6 @@
 // Operations on plans. Every function returns a new plan and leaves its argument unchanged.
 import type { Plan, PlanRing, Point2 } from "../api/types";
+import { apart, isCornerEdge, together, type CornerEdge } from "./corner_edges";
 import { same, type Profile } from "./profile";
 import {
   area,
@@ -56,8 +57,29 @@ const withPoints = (plan: Plan, at: number, change: (p: Point2, i: number) => Po
   return ring ? withRing(plan, at, { ...ring, points: ring.points.map(change) }) : plan;
 };
 
+/** What a change makes of a plan without its corner edges, and with them again. `moved` gives a corner its new number. */
+function besideCornerEdges<T extends Plan | null>(
+  plan: Plan,
+  at: EdgeAt,
+  change: (plan: Plan, at: EdgeAt) => T,
+  moved: (corner: number, edge: number) => number | null = (corner) => corner,
+): T | Plan {
+  const { plan: bare, corners, numberOf } = apart(plan);
+  if (corners.length === 0) return change(plan, at);
+  const edge = numberOf(at.ring, at.edge);
+  const changed = change(bare, { ring: at.ring, edge });
+  if (!changed) return changed;
+  return together(
+    changed,
+    corners.flatMap((c): CornerEdge[] => {
+      const corner = c.ring === at.ring ? moved(c.corner, edge) : c.corner;
+      return corner === null ? [] : [{ ...c, corner }];
+    }),
+  );
+}
+
 export function moveVertex(plan: Plan, at: EdgeAt, to: Point2): Plan {
-  return withPoints(plan, at.ring, (p, i) => (i === at.edge ? to : p));
+  return besideCornerEdges(plan, at, (bare, corner) => withPoints(bare, corner.ring, (p, i) => (i === corner.edge ? to : p)));
 }
 
 export function moveAll(plan: Plan, by: Point2): Plan {
@@ -65,8 +87,14 @@ export function moveAll(plan: Plan, by: Point2): Plan {
   return { ...plan, outer: moved(plan.outer), holes: plan.holes.map(moved) };
 }
 
-/** Shifts the edge to its left, i.e. inwards, also for holes; its neighbours keep their directions. */
+/** Shifts the edge to its left, i.e. inwards, also for holes; its neighbours keep their directions. A corner edge stays
+ *  at its corner. */
 export function moveEdge(plan: Plan, at: EdgeAt, by: number): Plan {
+  const own = ringOf(plan, at.ring);
+  if (own && isCornerEdge(own, at.edge)) return plan;
+  return besideCornerEdges(plan, at, (bare, edge) => withMovedEdge(bare, edge, by));
+}
+function withMovedEdge(plan: Plan, at: EdgeAt, by: number): Plan {
   const ring = ringOf(plan, at.ring);
   const ends = endsOf(plan, at);
   const along = ends && unit(minus(ends[1], ends[0]));
@@ -91,6 +119,14 @@ const overhangs = (ring: PlanRing, change: (values: number[]) => number[]): Part
 
 /** Inserts a corner on an edge; both halves keep its profile. */
 export function insertVertex(plan: Plan, at: EdgeAt, point: Point2): Plan {
+  return besideCornerEdges(
+    plan,
+    at,
+    (bare, edge) => withVertex(bare, edge, point),
+    (corner, edge) => (corner > edge ? corner + 1 : corner),
+  );
+}
+function withVertex(plan: Plan, at: EdgeAt, point: Point2): Plan {
   const ring = ringOf(plan, at.ring);
   if (!ring || at.edge >= ring.points.length) return plan;
   const twice = (values: number[]) => [
@@ -108,6 +144,11 @@ export function insertVertex(plan: Plan, at: EdgeAt, point: Point2): Plan {
 /** Deletes a corner; its two edges become one, with the profile of the longer one. A hole with three corners is deleted;
  *  for an outline with three corners the result is null. */
 export function deleteVertex(plan: Plan, at: EdgeAt): Plan | null {
+  return besideCornerEdges(plan, at, withoutVertex, (corner, gone) =>
+    corner === gone ? null : corner > gone ? corner - 1 : corner,
+  );
+}
+function withoutVertex(plan: Plan, at: EdgeAt): Plan | null {
   const ring = ringOf(plan, at.ring);
   if (!ring || at.edge >= ring.points.length) return null;
   if (ring.points.length <= 3) return at.ring === 0 ? null : removeHole(plan, at.ring);

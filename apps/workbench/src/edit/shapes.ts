@@ -1,4 +1,5 @@
 // Roof shapes in one step, where there is no scan that the engine could fit them to.
+import { apart, isCornerEdge } from "./corner_edges";
 import type { Plan, Point2 } from "../api/types";
 import { after } from "./plan";
 import { type Profile, gutterOf, pitchOf } from "./profile";
@@ -53,12 +54,17 @@ export interface Roof {
  *  `lengthwise`, by default those along the longest edge. Edges at which `shared` is true have a neighbour: their walls reach
  *  up to the roof. Courtyards get walls. */
 export function shaped(
-  plan: Plan,
+  given: Plan,
   shape: Shape,
-  shared: (edge: number) => boolean = () => false,
+  sharedEdge: (edge: number) => boolean = () => false,
   roof: Roof = {},
-  lengthwise: readonly boolean[] = alongLongest(plan.outer.points),
+  lengthwiseEdges?: readonly boolean[],
 ): Plan {
+  // The directions of the roof before are no sides of this one.
+  const walls = given.outer.points.flatMap((_, i) => (isCornerEdge(given.outer, i) ? [] : [i]));
+  const { plan } = apart(given);
+  const shared = (edge: number) => sharedEdge(walls[edge]!);
+  const lengthwise = lengthwiseEdges ? walls.map((i) => lengthwiseEdges[i]!) : alongLongest(plan.outer.points);
   const eaves = roof.eaves ?? eavesOf(plan);
   const pitch = roof.pitch ?? pitchNow(plan);
   const xs = plan.outer.points.map((p) => p[0]);

@@ -1,0 +1,175 @@
+#include "mansard/refine/detail/turned.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "mansard/extrude/corner_edges.hpp"
+#include "mansard/geometry/fit.hpp"
+#include "mansard/refine/detail/forms.hpp"
+#include "mansard/refine/detail/order.hpp"
+#include "mansard/refine/detail/refit.hpp"
+
+namespace mansard::refine::detail {
+namespace {
+
+using geometry::Point2;
+using geometry::Point3;
+using model::Plan;
+
+/// A roof plane that samples are on, in the heights of the site.
+struct Slope {
+  Point3 middle;
+  Point2 rise;      ///< per run
+  double gain = 0;  ///< m²·m²: what it saves against the roof, on these samples
+  [[nodiscard]] auto at(Point2 place) const -> double { return middle.z + dot(rise, place - xy(middle)); }
+};
+
+/// Samples that one plane may explain.
+using Group = std::vector<std::size_t>;
+
+/// The plane through some samples, those far off it left out; none where they are too few, or on one line.
+auto plane_through(const Group& group, const Site& site, const Options& options) -> std::optional<Slope> {
+  constexpr int rounds = 4;
+  constexpr double flat_share = 1e-3;  // of the spread: what is narrower across is a line
+  std::optional<Slope> best;
+  for (int round = 0; round < rounds; ++round) {
+    double weight = 0;
+    Point3 sum;
+    const auto each = [&](auto use) {
+      for (const std::size_t i : group) {
+        if (best && std::abs(best->at(site.places[i]) - site.z[i]) > options.lines.robust) continue;
+        use(Point3{site.places[i].x, site.places[i].y, site.z[i]}, site.weight[i]);
+      }
+    };
+    std::int64_t count = 0;
+    each([&](Point3 p, double w) { weight += w, sum = sum + w * p, ++count; });
+    if (count < options.lines.min_samples || !(weight > 0)) return std::nullopt;
+    const Point3 middle = (1 / weight) * sum;
+    geometry::SlopeEquations equations;
+    each([&](Point3 p, double w) { equations.add(p.x - middle.x, p.y - middle.y, p.z - middle.z, w); });
+    const double spread = equations.xx + equations.yy;
+    if (!(equations.determinant() > flat_share * spread * spread)) return std::nullopt;
+    best = Slope{middle, equations.slopes(), 0};
+  }
+  return best;
+}
+
+/// Of points, those on each of their planes. Of a surface, those over each face that rises from an edge, where most of
+/// them are on one plane: what a roof is not yet, its faces mix, and a plane through that explains nothing.
+auto groups_of(const Judged& judged, const Site& site, const Options& options) -> std::vector<Group> {
+  constexpr double on_one_plane = 0.8;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Group> groups;
+  for (std::size_t i = 0; i < site.cells.size(); ++i) {
+    if (std::isnan(judged.view.z_of(site, i))) continue;
+    if (site.of_points) {
+      if (site.plane_of[i] < site.planes.size()) groups[{site.plane_of[i], 0}].push_back(i);
+      continue;
+    }
+    const auto& face = judged.sketch.faces[judged.view.face_of(site, i)];
+    if (face.kind == model::FaceKind::side && face.provenance && face.provenance->ring == 0)
+      groups[{face.provenance->edge, face.provenance->part}].push_back(i);
+  }
+  std::vector<Group> out;
+  for (auto& [key, group] : groups) {
+    if (std::ssize(group) < options.lines.min_samples) continue;
+    if (!site.of_points) {
+      const auto slope = plane_through(group, site, options);
+      const auto is_on_it = [&](std::size_t i) {
+        return std::abs(slope->at(site.places[i]) - site.z[i]) <= options.lines.robust;
+      };
+      if (!slope || static_cast<double>(std::ranges::count_if(group, is_on_it)) <
+                        on_one_plane * static_cast<double>(group.size()))
+        continue;
+    }
+    out.push_back(std::move(group));
+  }
+  return out;
+}
+
+auto slope_of(const Group& group, const Judged& judged, const Site& site, const Options& options)
+    -> std::optional<Slope> {
+  std::optional<Slope> slope;
+  if (site.of_points) {
+    const auto& plane = site.planes[site.plane_of[group.front()]];
+    slope = Slope{{plane.middle.x, plane.middle.y, plane.middle.z - site.base}, plane.slope, 0};
+  } else {
+    slope = plane_through(group, site, options);
+  }
+  if (!slope) return slope;
+  const double steep = length(slope->rise);
+  if (steep < options.forms.min_slope || steep > options.forms.max_slope) return std::nullopt;
+  const auto off = [&](double difference) {
+    return site.of_points ? stray_loss(difference, options.samples.stray) : loss(difference, options.robust);
+  };
+  for (const std::size_t i : group)
+    if (const double z = judged.view.z_of(site, i); !std::isnan(z))
+      slope->gain +=
+          site.weight[i] * (off(judged.view.z_of(site, i) - site.z[i]) - off(slope->at(site.places[i]) - site.z[i]));
+  slope->gain *= site.sample_area;
+  return slope;
+}
+
+/// The plan with the plane from one of its corners, and the walls on both sides of that, as far as the plane rises from
+/// them, up to it.
+auto with_slope(const Plan& plan, const Slope& slope, std::size_t corner, const Options& options)
+    -> std::optional<Plan> {
+  constexpr double most_turn = 0.34;  // the sine of 20°: what is more oblique is no side of a roof, and mostly noise
+  constexpr double from_wall = 0.7;   // the cosine of 45°: a roof rises from a wall, or along it
+  const double height = slope.at(plan.outer.points[corner]), steep = length(slope.rise);
+  if (height < options.forms.min_height) return std::nullopt;
+  const Point2 up = (1 / steep) * slope.rise, along{up.y, -up.x};
+  const auto& points = plan.outer.points;
+  const auto turn_from = [&](std::size_t edge) {
+    return std::abs(cross(along, normalised(points[(edge + 1) % points.size()] - points[edge])));
+  };
+  if (std::min(turn_from(corner), turn_from((corner + points.size() - 1) % points.size())) > most_turn)
+    return std::nullopt;
+  const auto own = static_cast<std::uint32_t>(plan.profiles.size());
+  auto ring = extrude::with_corner_edge(plan.outer, corner, along, own);
+  if (!ring) return std::nullopt;
+  Plan out = plan;
+  out.outer = *std::move(ring);
+  out.profiles.push_back(pitched(height, steep));
+  out.profiles.push_back(wall(height, options.forms));
+  const auto edges = edges_of(out).front();
+  const std::size_t n = edges.size();
+  const auto rises_from = [&](std::size_t edge) {
+    return dot(edges[edge].inward, up) > from_wall && !is_wall(out.profiles[out.outer.profile_of_edge[edge]]);
+  };
+  for (const std::size_t step : {std::size_t{1}, n - 1})
+    for (std::size_t edge = (corner + step) % n; edge != corner && rises_from(edge); edge = (edge + step) % n)
+      out.outer.profile_of_edge[edge] = own + 1;
+  return out;
+}
+
+}  // namespace
+
+auto turned_roofs(const Judged& judged, const Judge& judge) -> std::vector<Plan> {
+  constexpr std::size_t most_slopes = 3, most_corners = 2;
+  const Site& site = judge.site();
+  const Options& options = judge.options();
+  std::vector<std::pair<Slope, Point2>> slopes;  // and the middle of the samples
+  for (const Group& group : groups_of(judged, site, options))
+    if (const auto slope = slope_of(group, judged, site, options); slope && slope->gain > options.face_price)
+      slopes.emplace_back(*slope, xy(slope->middle));
+  rank(
+      slopes, [](const auto& one) { return -one.first.gain; }, options.same_cost);
+  if (slopes.size() > most_slopes) slopes.resize(most_slopes);
+  std::vector<Plan> out;
+  for (const auto& [slope, middle] : slopes) {
+    std::vector<std::pair<double, Plan>> from;
+    for (std::size_t corner = 0; corner < judged.plan.outer.points.size(); ++corner)
+      if (auto plan = with_slope(judged.plan, slope, corner, options))
+        from.emplace_back(length(judged.plan.outer.points[corner] - middle), std::move(*plan));
+    rank(
+        from, [](const auto& one) { return one.first; }, same_length);
+    for (std::size_t i = 0; i < std::min(from.size(), most_corners); ++i) out.push_back(std::move(from[i].second));
+  }
+  return out;
+}
+
+}  // namespace mansard::refine::detail
