@@ -164,6 +164,33 @@ TEST(CheckScan, names_the_axis_the_unit_and_the_mirror_of_a_scan_that_does_not_f
   }
 }
 
+TEST(CheckScan, what_is_left_of_houses_that_are_gone_is_no_other_unit) {
+  // A tower, three times as large, would be as large as a house; but the scan would be far too large then.
+  const std::vector<geometry::Ring> houses{{{-37, -14.5}, {-12.2, -4.7}, {-21.7, 19.3}, {-46.5, 9.6}},
+                                           {{-12.2, -4.7}, {12.6, 5}, {3.6, 27.8}, {-21.2, 18.1}},
+                                           {{12.6, 5}, {37.4, 14.8}, {28, 38.5}, {3.2, 28.8}}};
+  model::Scene scene;
+  for (const auto& house : houses)
+    scene.footprints.push_back(test::footprint(std::to_string(scene.footprints.size()), {house, {}}));
+  constexpr double step = 0.5;
+  constexpr int columns = 210, rows = 140;
+  base::Random random(3);
+  for (int r = 0; r <= rows; ++r)
+    for (int c = 0; c <= columns; ++c) {
+      const double x = step * c - 55, y = step * r - 25;
+      const double z = std::abs(x + 1) < 4 && std::abs(y - 3) < 4 ? 17.9 : 0;
+      scene.mesh.vertices.push_back({x, y, z + random.uniform(-0.05, 0.05)});
+    }
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c) {
+      const auto a = static_cast<std::uint32_t>(r * (columns + 1) + c), d = a + static_cast<std::uint32_t>(columns) + 1;
+      scene.mesh.triangles.push_back({a, a + 1, d + 1});
+      scene.mesh.triangles.push_back({a, d + 1, d});
+    }
+  const auto found = check_scan(scene, nullptr, {}).value();
+  for (const auto& finding : found.findings) EXPECT_NE(finding.severity, base::Severity::error) << finding.message;
+}
+
 TEST(CheckScan, tells_heights_in_another_unit) {
   const auto scaled = [](double factor) { return [factor](Point3 p) { return Point3{p.x, p.y, factor * p.z}; }; };
   const auto high = checked(Street(6).change(scaled(1000)));

@@ -71,6 +71,16 @@ auto candidates_of(const model::Scene& scene, const Options& options, Point3 mid
   return out;
 }
 
+/// The area that two boxes share, of that of both.
+auto overlap(const geometry::Box2& a, const geometry::Box2& b) -> double {
+  const auto area = [](double x, double y) { return x > 0 && y > 0 ? x * y : 0; };
+  const double shared = area(std::min(a.most.x, b.most.x) - std::max(a.least.x, b.least.x),
+                             std::min(a.most.y, b.most.y) - std::max(a.least.y, b.least.y));
+  const double both =
+      area(a.most.x - a.least.x, a.most.y - a.least.y) + area(b.most.x - b.least.x, b.most.y - b.least.y) - shared;
+  return both > 0 ? shared / both : 0;
+}
+
 }  // namespace
 
 auto other_place(const model::Scene& scene, const Options& options, const base::Run& run)
@@ -87,6 +97,12 @@ auto other_place(const model::Scene& scene, const Options& options, const base::
   };
   const Point3 shift{along(0), along(1), along(2)};
   const auto box = geometry::Box3::of(scene.mesh.vertices);
+  // Of a few footprints some fit anything: two standard deviations of the correlation of as many that do not belong
+  // together (1 / √n), and what half of them that are gone still leave of one that does.
+  const double least = std::min(0.6, 2 / std::sqrt(static_cast<double>(outlines.size())));
+  geometry::Box2 around;
+  for (const auto& outline : outlines) around.include(geometry::bounds(outline.outer));
+  const auto xy_of = [](const geometry::Box3& b) { return geometry::Box2{xy(b.least), xy(b.most)}; };
   const Candidate* best = nullptr;
   std::optional<align::Match> found;
   const auto candidates = candidates_of(scene, options, 0.5 * (box.least + box.most) + shift);
@@ -99,8 +115,11 @@ auto other_place(const model::Scene& scene, const Options& options, const base::
     constexpr double largest = 5000;  // m
     const auto plan = geometry::Box2::of(changed.vertices);
     if (plan.most.x - plan.least.x > largest || plan.most.y - plan.least.y > largest) continue;
+    // In the right unit it is as large as the footprints' surroundings, and no less so than before.
+    if (candidate.code == "scan-units" && overlap(plan, around) < overlap(xy_of(box), around)) continue;
     const auto match = align::match_at(changed, outlines, 0, 0);
-    if (!match || !fits(*match) || (found && match->correlation <= found->correlation)) continue;
+    if (!match || !fits(*match) || match->correlation < least || (found && match->correlation <= found->correlation))
+      continue;
     found = match;
     best = &candidate;
   }
