@@ -152,6 +152,9 @@ export function Offered() {
   const worse = rows.filter((r) => r.before != null && r.after != null && rmse(r.after)! > rmse(r.before)! + 0.0005).length;
   const better = rows.filter((r) => r.before != null && r.after != null && rmse(r.after)! < rmse(r.before)! - 0.0005).length;
   const doubts = session.doubts;
+  const halves = doubts.filter((d) => d.code === "edit-error").length;
+  const gain = (r: (typeof rows)[number]) => (rmse(r.after) ?? 0) - (rmse(r.before) ?? 0);
+  rows.sort((a, b) => gain(b) - gain(a));
   const reason = session.reason.value;
   const chosen = chosenOffer.value?.choice === shown;
   const done = (act: () => void) => () => {
@@ -162,7 +165,7 @@ export function Offered() {
   return (
     <div class={`edit-reason offered${doubts.length || reason ? " doubtful" : ""}`}>
       <div role="status" class="offered-text">
-        <b>{draft.what}</b>{" "}
+        <b>{draft.what.slice(0, 1).toUpperCase() + draft.what.slice(1)}</b>{" "}
         {rows.length === 1 ? (
           <ErrorChange {...rows[0]!} />
         ) : draft.pending ? (
@@ -173,9 +176,15 @@ export function Offered() {
           </span>
         )}
         {reason && <p>{said(reason)}</p>}
-        {doubts.map((d) => (
-          <p key={d.subject + d.message}>{said(d)}</p>
-        ))}
+        {doubts
+          .filter((d) => rows.length === 1 || d.code !== "edit-error")
+          .map((d) => (
+            <p key={d.subject + d.message}>
+              {said(d)}
+              {rows.length > 1 && ` (${d.subject})`}
+            </p>
+          ))}
+        {rows.length > 1 && halves > 0 && <p>The error rises by half or more for {count(halves, "building")}.</p>}
         {losing.value.length > 0 && <p>{count(losing.value.length, "dormer")} would be removed: the roof has no slope for {losing.value.length > 1 ? "them" : "it"} any more.</p>}
       </div>
       {rows.length > 1 && !draft.pending && (
