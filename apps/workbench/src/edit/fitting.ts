@@ -18,7 +18,7 @@ export const planeOf = (plan: Plan, at: EdgeAt): EdgeAt[] => {
 };
 
 const steepest = 8; // rise over run, about 83°
-const room = 30; // m above the cap for a plane that is tried
+const higher = 30; // m; of the cap while planes are tried
 
 /** The gutter and the pitch of the plane over an edge. Other planes stay. `ridge`: of the part as it is, above its base. Null if
  *  the edge has a wall. */
@@ -32,7 +32,7 @@ export function variablePlane(parts: readonly NamedPlan[], part: string, at: Edg
   // Heights of the two ends of the slope say more independent things than a height and a pitch.
   const run = Math.max(0.5, (ridge - gutter) / pitch);
   // A cap above the ridge stays above it; `trimmed` lowers it again.
-  const cap = plan.cap < ridge + 0.005 ? plan.cap : plan.cap + room;
+  const cap = plan.cap < ridge + 0.005 ? plan.cap : plan.cap + higher;
   return {
     start: [gutter, gutter + pitch * run],
     steps: [0.4, 0.4],
@@ -72,7 +72,7 @@ export function variableDormer(parts: readonly NamedPlan[], id: string): Variabl
 
 const most = 160; // measurements
 
-/** The values with the least cost, to a hundredth: one is varied after the other, in steps that become smaller. */
+/** The values of the minimum, to a hundredth: one is varied after the other, in steps that become smaller. */
 export async function least(
   { start, steps }: Pick<Variable, "start" | "steps">,
   cost: (values: readonly number[]) => Promise<number>,

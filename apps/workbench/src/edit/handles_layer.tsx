@@ -2,6 +2,7 @@
 import { type ReadonlySignal, effect, useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { NamedPlan, Plan, Point2 } from "../api/types";
+import { rmse } from "../panels/words";
 import * as state from "../state";
 import { aligning } from "../view/align";
 import { viewer } from "../view/current";
@@ -92,7 +93,11 @@ export function Handles({ images }: { images: ReadonlySignal<number> }) {
       free.push(p);
       child.style.transform = `translate(${p[0].toFixed(1)}px, ${p[1].toFixed(1)}px)`;
       const note = box.current.querySelector<HTMLElement>("output")!;
-      if (handle!.key === said.current) note.style.transform = `translate(${(p[0] + 14).toFixed(1)}px, ${(p[1] - 26).toFixed(1)}px)`;
+      if (handle!.key !== said.current) continue;
+      // On the left of a handle that is near the right edge of the view.
+      const beside = box.current.clientWidth - p[0] - 16;
+      const left = note.offsetWidth < beside ? p[0] + 16 : Math.max(4, p[0] - 16 - note.offsetWidth);
+      note.style.transform = `translate(${left.toFixed(1)}px, ${Math.max(4, p[1] - 30).toFixed(1)}px)`;
     }
   };
   useEffect(
@@ -126,7 +131,7 @@ export function Handles({ images }: { images: ReadonlySignal<number> }) {
     const plan = moved(from.plan, from.ridge, handle, { up, aside });
     said.current = handle.key;
     if (!plan) {
-      words.value = `${nameOf(handle)}: no further`;
+      words.value = `${nameOf(handle)}: that is as far as it goes`;
       return false;
     }
     const by = aside ? `moved aside by ${metres(Math.abs(aside))}` : handle.kind === "face" ? `moved ${up < 0 ? "in" : "out"} by ${metres(Math.abs(up))}` : `${up < 0 ? "lowered" : "raised"} by ${metres(Math.abs(up))}`;
@@ -237,6 +242,10 @@ export function Handles({ images }: { images: ReadonlySignal<number> }) {
     session.commit();
   };
 
+  const before = state.run.value?.buildings.get(building)?.mse;
+  const after = state.draft.value?.raised.get(building)?.mse;
+  const error = before == null || after == null ? "" : ` · RMSE ${metres(rmse(before), 3).replace(/ m$/, "")} → ${metres(rmse(after), 3)}`;
+
   return (
     <div class="edit-handles" role="group" aria-label={`Handles of the roof of ${part.id}`} ref={box}>
       {handles.map((handle) => (
@@ -260,6 +269,7 @@ export function Handles({ images }: { images: ReadonlySignal<number> }) {
       ))}
       <output class="edit-handle-words" hidden={!words.value}>
         {words.value}
+        {words.value && error}
       </output>
     </div>
   );

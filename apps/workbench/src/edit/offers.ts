@@ -140,7 +140,7 @@ function together(changed: readonly Place[]): Parts[] {
 }
 
 /** The parts with the best roofs of a kind for the scan, as the engine fits them; those that cannot have one are left out, with
- *  the reason. Without a scan, or where it shows nothing, as `otherwise` makes them. */
+ *  the reason. Without a scan, or where it does not cover the part, as `otherwise` makes them. */
 async function fittedOr(
   places: readonly Place[],
   kind: Shape | "fitted",

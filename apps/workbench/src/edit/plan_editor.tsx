@@ -454,7 +454,7 @@ export function PlanEditor() {
       showMessage({
         severity: "warning",
         code: "edit-no-dormer",
-        message: "a dormer needs a slope of 14° to 63° with room for it, at least 1.2 m wide; there is none within 3 m of the point that is clicked",
+        message: "a dormer needs a slope of 14° to 63° with free space for it, at least 1.2 m wide; there is none within 3 m of the point that is clicked",
         subject: part,
       });
       return;
@@ -465,7 +465,7 @@ export function PlanEditor() {
       showMessage({
         severity: "warning",
         code: "edit-dormer-moved",
-        message: `a dormer does not fit at the point that is clicked; it is ${metres(made.moved)} away, at the nearest place with room for it`,
+        message: `a dormer does not fit at the point that is clicked; it is ${metres(made.moved)} away, at the nearest place where it fits`,
         subject: made.id,
       });
   };

@@ -413,7 +413,7 @@ export function dormerBox(parts: readonly NamedPlan[], id: string): Box | null {
   return slope && plan ? boxOf(plan, slope) : null;
 }
 
-/** The building with a dormer at another place of its slope, and with other measures; null where it would not stand on it.
+/** The building with a dormer at another place of its slope, and with other measures; null where that is not on it.
  *  `rise`: of its own slopes, per run; null: as it is. */
 export function withDormerBox(parts: readonly NamedPlan[], id: string, box: Box, rise: number | null = null): NamedPlan[] | null {
   const own = structureAt(parts, id);
@@ -480,7 +480,7 @@ export function faceOver(g: Geometry, [x, y]: Point2): { ring: number | null; ed
   return best;
 }
 
-/** A new dormer with its front at a point, or at the nearest one within 3 m where there is room for it. `moved`: how far that is
+/** A new dormer with its front at a point, or at the nearest one within 3 m where it fits. `moved`: how far that is
  *  from the point, metres. Null if there is none. `geometry` is the host's. */
 export function nearestDormer(
   building: string,
