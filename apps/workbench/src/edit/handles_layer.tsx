@@ -29,7 +29,7 @@ interface Drag extends Start {
   began: boolean;
 }
 
-const apart = 17; // pixels between two handles
+const apart = 25; // pixels between two handles, which are 24 pixels wide
 const smallest = 50; // pixels; of the part, so that it has handles
 const foreshortened = 0.25; // of its length: an axis that is seen so is no direction to drag in
 

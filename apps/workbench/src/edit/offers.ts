@@ -3,6 +3,7 @@ import { effect, signal } from "@preact/signals";
 import { client, showMessage } from "../actions";
 import { Refused } from "../api/client";
 import type { Diagnostic, NamedPlan } from "../api/types";
+import { count } from "../panels/words";
 import * as state from "../state";
 import { alike, alongRow, type Place, rowOf } from "./alike";
 import { ridgeOf } from "./desk";
@@ -196,7 +197,7 @@ async function offerOf(choice: Choice): Promise<Made> {
     const changed = all
       .filter((p) => also.some((a) => isAt(p, a)) && !isAt(p, at))
       .map((place) => ({ ...place, plan: alike(first.plan, place.plan, shared, sharedOf(place, all)) }));
-    return changed.length ? { choice, what: `${changed.length} parts like ${first.part}`, parts: together(changed), left: [] } : { why: [] };
+    return changed.length ? { choice, what: `${count(changed.length, "part")} like ${first.part}`, parts: together(changed), left: [] } : { why: [] };
   }
   const row = reach.value === "row";
   const places = row ? rowOf(first, all) : [first, ...(reach.value === "selected" ? all.filter((p) => !isAt(p, at) && also.some((a) => isAt(p, a))) : [])];

@@ -119,7 +119,13 @@ export function Roofs() {
           class="small"
           title="Give the other selected parts the roof of this part: with as many corners, its profiles edge by edge; else its shape, eaves and pitch"
           aria-pressed={shown === "alike"}
+          data-choice="alike"
           onClick={() => choose("alike")}
+          onKeyDown={(event) => {
+            if (event.key !== "Enter" || (making.value ?? chosenOffer.value?.choice) !== "alike") return;
+            event.preventDefault();
+            keepShown();
+          }}
         >
           Make alike
         </button>

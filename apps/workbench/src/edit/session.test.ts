@@ -323,6 +323,30 @@ describe("a proposal", () => {
     expect(t.edits).toHaveLength(1);
   });
 
+  it("is taken back where its building was changed meanwhile, by a redo", async () => {
+    t.session.offerTo("gable roof", parts("a", plan(7)));
+    await t.previews[0]!.answer(raised("a", 7));
+    t.run.value = { ...t.run.value!, buildings: new Map([["a", building("a", 1, 6)], ["b", building("b", 5, 6)]]) };
+    expect(t.session.offered).toBe(true);
+    t.run.value = { ...t.run.value!, buildings: new Map([["a", building("a", 2, 6)]]) };
+    expect(t.session.offered).toBe(false);
+    expect(t.draft.value).toBeNull();
+  });
+
+  it("stays while an edit of the same building is being saved", async () => {
+    t.session.propose("gutter", parts("a", plan(7)));
+    await t.previews[0]!.answer(raised("a", 7));
+    expect(t.edits).toHaveLength(1);
+    expect(t.session.offerTo("gable roof", parts("a", plan(8)))).toBe(true);
+    await t.edits[0]!.answer(applied("a", 2, 7));
+    expect(t.session.offered).toBe(true);
+    expect(gutterOf(t.session.partsBefore("a")[0]!.plan)).toBe(7);
+    await t.previews[1]!.answer(raised("a", 8));
+    t.session.keepOffer();
+    await turn();
+    expect(t.edits[1]?.changes[0]?.revision).toBe(2);
+  });
+
   it("on a held draft goes back to it", async () => {
     t.session.propose("wall", parts("a", plan(9)));
     await t.previews[0]!.answer(raised("a", 9, false));

@@ -74,6 +74,7 @@ export class EditSession {
   private touched = new Set<string>(); // buildings changed since the last edit was sent
   private writing: { run: string; undo: boolean } | null = null;
   private putting = false;
+  private taking = false; // of the answer to an edit of this session
   private lost: string[] = []; // parts that the gesture removes
   private offer: { what: string; before: Draft | null } | null = null; // the proposal that is shown
   private interrupted: { what: string; before: Draft | null } | null = null; // that a gesture builds on
@@ -86,6 +87,11 @@ export class EditSession {
     desk.draft.subscribe((draft) => {
       if (had && !draft && !this.putting) this.dropped();
       had = draft;
+    });
+    // A redo, or another edit of the same building: what is shown was made for another state of it.
+    desk.run.subscribe((run) => {
+      const changes = this.offer && !this.taking && desk.draft.value?.changes;
+      if (changes && changes.some((c) => run?.buildings.get(c.building)?.revision !== c.revision)) this.cancel();
     });
   }
 
@@ -407,7 +413,9 @@ export class EditSession {
   private written(run: string, applied: api.Applied) {
     this.desk.keep(null);
     const draft = this.desk.draft.value;
+    this.taking = true;
     this.desk.take(run, applied);
+    this.taking = false;
     if (!draft || this.desk.run.value?.id !== run) return;
     // A gesture that began meanwhile is based on the plans that were just saved.
     const rest = draft.changes.filter((c) => this.touched.has(c.building));
@@ -526,9 +534,12 @@ export class EditSession {
   }
 }
 
-/** What the preview says that is no error: that the change is worse for the scan. */
+/** What the preview says that is no error: that the change is worse for the scan. Of several buildings it names each. */
 const doubtsOf = (draft: Draft): api.Diagnostic[] =>
-  draft.changes.flatMap((c) => draft.raised.get(c.building)?.diagnostics.filter((d) => d.code === "edit-above" || d.code === "edit-error") ?? []);
+  draft.changes.flatMap((c) => {
+    const all = draft.raised.get(c.building)?.diagnostics.filter((d) => d.code === "edit-above" || d.code === "edit-error") ?? [];
+    return draft.changes.length > 1 ? all.map((d) => ({ ...d, subject: d.subject || c.building })) : all;
+  });
 
 function firstError(buildings: api.RaisedBuilding[]): api.Diagnostic | null {
   const all = buildings.flatMap((b) => [...b.parts.flatMap((p) => p.diagnostics), ...b.diagnostics]);
