@@ -145,7 +145,7 @@ test("the sample is read, reconstructed, edited, undone and exported", { tag: "@
     const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
     await page.mouse.move(x, y);
     await page.mouse.down();
-    for (let i = 1; i <= 12; ++i) await page.mouse.move(x, y - 2.5 * i);
+    for (let i = 1; i <= 12; ++i) await page.mouse.move(x, y - i); // not so far that it is above the scan
     // The new solid is previewed before the button is released, and nothing is saved yet.
     await expect
       .poll(() =>
@@ -156,7 +156,7 @@ test("the sample is read, reconstructed, edited, undone and exported", { tag: "@
       )
       .toBeGreaterThan(volume(before) + 1);
     expect((await buildingOf(page, house.id)).revision).toBe(before.revision);
-    await page.mouse.move(x, y - 30); // no other preview follows
+    await page.mouse.move(x, y - 12); // no other preview follows
     await expect.poll(() => state(page, (s) => s.draft.value?.pending)).toBe(false);
     await idle(page);
     const dragged = await canvas(page).screenshot();
@@ -752,7 +752,7 @@ test("the gutter is one operation, dragged or typed", async ({ clean: page, serv
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   await page.mouse.move(x, y);
   await page.mouse.down();
-  for (let i = 1; i <= 8; ++i) await page.mouse.move(x, y - 3 * i);
+  for (let i = 1; i <= 8; ++i) await page.mouse.move(x, y - 1.25 * i);
   await page.mouse.up();
   await expect.poll(planNow).not.toEqual(house.parts[0]!.plan);
   const dragged = await planNow();

@@ -56,9 +56,10 @@ export function handlesOf({ plan, geometry }: Pick<RaisedPart, "plan" | "geometr
   }
   const faces = new Map<number, Face>();
   const tops: { at: Vector; area: number }[] = [];
+  const middles = middlesOf(geometry);
   geometry.faces.forEach((face, f) => {
     if (face.class !== "roof") return;
-    const { centre, normal, area } = middleOf(geometry, f);
+    const { centre, normal, area } = middles[f]!;
     if (!(area > 0)) return;
     const side = face.ring === null || face.edge === null || hidden.has(face.ring) ? null : sideOf({ ring: face.ring, edge: face.edge });
     if (face.ring === null || face.edge === null) tops.push({ at: centre, area });
@@ -94,24 +95,25 @@ export function handlesOf({ plan, geometry }: Pick<RaisedPart, "plan" | "geometr
   return found.slice(0, mostHandles);
 }
 
-/** Of a face: the centre of its area, and its normal. */
-function middleOf(g: NonNullable<RaisedPart["geometry"]>, face: number): { centre: Vector; normal: Vector; area: number } {
-  const [sum, normal]: [Vector, Vector] = [[0, 0, 0], [0, 0, 0]];
-  let area = 0;
+/** Of each face: the centre of its area, and its normal. */
+function middlesOf(g: NonNullable<RaisedPart["geometry"]>): { centre: Vector; normal: Vector; area: number }[] {
+  const all = g.faces.map(() => ({ centre: [0, 0, 0] as Vector, normal: [0, 0, 0] as Vector, area: 0 }));
   for (let t = 0; t < g.face_of.length; ++t) {
-    if (g.face_of[t] !== face) continue;
+    const of = all[g.face_of[t]!]!;
     const [a, b, c] = [0, 1, 2].map((k) => g.positions.slice(3 * g.triangles[3 * t + k]!, 3 * g.triangles[3 * t + k]! + 3)) as [Vector, Vector, Vector];
     const [u, v] = [b.map((x, i) => x - a[i]!), c.map((x, i) => x - a[i]!)] as [Vector, Vector];
     const n: Vector = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     const size = Math.hypot(...n);
-    area += size;
+    of.area += size;
     for (let i = 0; i < 3; ++i) {
-      sum[i]! += (size * (a[i]! + b[i]! + c[i]!)) / 3;
-      normal[i]! += n[i]!;
+      of.centre[i]! += (size * (a[i]! + b[i]! + c[i]!)) / 3;
+      of.normal[i]! += n[i]!;
     }
   }
-  const length = Math.hypot(...normal);
-  return { centre: sum.map((x) => x / area) as Vector, normal: normal.map((x) => x / length) as Vector, area };
+  return all.map(({ centre, normal, area }) => {
+    const length = Math.hypot(...normal);
+    return { centre: centre.map((x) => x / area) as Vector, normal: normal.map((x) => x / length) as Vector, area };
+  });
 }
 
 const inwardOf = (plan: Plan, at: EdgeAt, p: readonly number[]): number => {

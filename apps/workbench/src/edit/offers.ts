@@ -104,11 +104,15 @@ export function discardShown() {
 const everyPart = (): Place[] =>
   [...state.run.value!.buildings.keys()].flatMap((building) => {
     const parts = session.partsBefore(building);
-    const structures = new Set(structuresOf(parts).map((s) => s.id));
-    return parts
-      .filter(({ id }) => !structures.has(id))
-      .map(({ id }) => ({ building, part: id, plan: bare(parts, id) }));
+    let places = placesOf.get(parts);
+    if (!places) {
+      const structures = new Set(structuresOf(parts).map((s) => s.id));
+      places = parts.filter(({ id }) => !structures.has(id)).map(({ id }) => ({ building, part: id, plan: bare(parts, id) }));
+      placesOf.set(parts, places);
+    }
+    return places;
   });
+const placesOf = new WeakMap<readonly NamedPlan[], Place[]>(); // plans are replaced, never changed
 export const isAt = (p: { building: string; part: string }, at: { building: string; part: string | null }) =>
   p.building === at.building && p.part === at.part;
 

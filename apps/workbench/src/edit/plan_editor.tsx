@@ -460,6 +460,7 @@ export function PlanEditor() {
       return;
     }
     if (!session.propose(`dormer ${made.id} added`, [{ building, parts: made.parts }])) return;
+    state.messages.value = state.messages.value.filter((m) => m.code !== "edit-no-dormer");
     select({ building, part: made.id, ring: 0, edge: null });
     if (made.moved > 0)
       showMessage({
