@@ -509,6 +509,7 @@ test("each run has its own marks, edits are carried over, and merging across bui
   });
 
   await page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Flat" }).click();
+  await keep(page);
   await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(true);
   const { plan } = (await buildingOf(page, house.id)).parts[0]!;
   await reconstruct(page, "second");
@@ -1492,6 +1493,7 @@ test("the scan and the models have the colours of the scan", { tag: "@firefox" }
   await test.step("an edited building has the colours of its new faces", async () => {
     const before = await buildingOf(page, "gable");
     await page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Flat" }).click();
+    await keep(page);
     await expect.poll(async () => (await buildingOf(page, "gable")).revision).toBeGreaterThan(before.revision);
     await expect.poll(() => pictures(page)).toEqual([1, 2]);
     await idle(page);
@@ -1932,6 +1934,7 @@ test("a run of thousands of buildings is a list at once, and models come near th
   // It is edited like any other, and a click in the view selects a building.
   await page.getByRole("tab", { name: "Edit" }).click();
   await page.getByRole("button", { name: "Flat", exact: true }).click();
+  await keep(page);
   await expect.poll(async () => (await buildingOf(page, "b4017")).edited).toBe(true);
   await page.getByRole("tab", { name: "Buildings" }).click();
   await page.getByLabel("Filter buildings").fill("edited");

@@ -10,7 +10,7 @@ import { session, showDraft } from "./here";
 import { PlanEditor } from "./plan_editor";
 import { ProfileEditor } from "./profile_editor";
 import { keepShown } from "./offers";
-import { Offered, Roofs } from "./roofs";
+import { Offered, OfferedWords, Roofs } from "./roofs";
 import { structuresOf } from "./structures";
 import { divided } from "../view/layers";
 
@@ -177,6 +177,7 @@ function EditBar() {
       <Roofs />
       <Held />
       <Offered />
+      <OfferedWords />
     </header>
   );
 }

@@ -136,13 +136,33 @@ export function Roofs() {
 
 const rootMetres = (mse: number | null | undefined) => metres(rmse(mse), 3);
 
+/** The roof that is shown, for screen readers: an element that is always there, so that its changes are read. */
+export function OfferedWords() {
+  const draft = state.draft.value;
+  const shown = shownChoice.value;
+  let words = making.value && !shown ? "fitting to the scan" : "";
+  if (session.phase.value === "offered" && draft && shown && !draft.pending) {
+    const errors = draft.changes.map(({ building }) => {
+      const [was, is] = [state.run.value?.buildings.get(building)?.mse, draft.raised.get(building)?.mse];
+      return was == null || is == null ? "" : `error ${rootMetres(was)}, then ${rootMetres(is)}`;
+    });
+    const doubts = session.doubts.map(said).join(". ");
+    words = `${draft.what}, not saved: ${errors.length === 1 ? errors[0] : count(errors.length, "building")}. ${session.reason.value ? said(session.reason.value) : doubts}`;
+  }
+  return (
+    <div class="edit-live" role="status">
+      {words}
+    </div>
+  );
+}
+
 /** The roof that is shown: the error of each building before and after, what is worse for the scan, and the choice. */
 export function Offered() {
   const draft = state.draft.value;
   const shown = shownChoice.value;
   if (making.value && !shown)
     return (
-      <div class="edit-reason offered" role="status">
+      <div class="edit-reason offered">
         <span>fitting to the scan …</span>
         <button type="button" onClick={discardShown}>
           Cancel
@@ -170,8 +190,8 @@ export function Offered() {
   };
   return (
     <div class={`edit-reason offered${doubts.length || reason ? " doubtful" : ""}`}>
-      <div role="status" class="offered-text">
-        <b>{draft.what.slice(0, 1).toUpperCase() + draft.what.slice(1)}</b>{" "}
+      <div class="offered-text">
+        <b>{draft.what.slice(0, 1).toUpperCase() + draft.what.slice(1)}:</b>{" "}
         {rows.length === 1 ? (
           <ErrorChange {...rows[0]!} />
         ) : draft.pending ? (
