@@ -47,6 +47,9 @@ const uses: Record<Handle["kind"], string> = {
   top: "Drag it up or down",
 };
 
+/** What the view itself makes of the pointer over a handle. */
+const passOn = (event: Event) => document.querySelector(".view canvas")?.dispatchEvent(event);
+
 export function Handles({ images }: { images: ReadonlySignal<number> }) {
   const at = state.selection.value;
   const part = raisedPart.value;
@@ -172,7 +175,10 @@ export function Handles({ images }: { images: ReadonlySignal<number> }) {
   };
   const move = (event: PointerEvent) => {
     const d = drag.current;
-    if (!d) return;
+    if (!d) {
+      passOn(new PointerEvent("pointermove", event)); // what is under the pointer
+      return;
+    }
     const by: Point2 = [event.clientX - d.down[0], event.clientY - d.down[1]];
     if (!d.began) {
       if (Math.hypot(...by) <= 3) return;
@@ -258,13 +264,14 @@ export function Handles({ images }: { images: ReadonlySignal<number> }) {
           style={{ visibility: "hidden" }}
           onPointerDown={(event) => down(event, handle)}
           onPointerMove={move}
+          onPointerLeave={(event) => !drag.current && !(event.relatedTarget instanceof HTMLCanvasElement) && passOn(new PointerEvent("pointerleave", event))}
           onPointerUp={() => up(handle)}
           onPointerCancel={broken}
           onLostPointerCapture={broken}
           onKeyDown={(event) => key(event, handle)}
           onKeyUp={settle}
           onBlur={settle}
-          onWheel={(event) => document.querySelector(".view canvas")?.dispatchEvent(new WheelEvent("wheel", event))}
+          onWheel={(event) => passOn(new WheelEvent("wheel", event))}
         />
       ))}
       <output class="edit-handle-words" hidden={!words.value}>
