@@ -47,6 +47,9 @@ const uses: Record<Handle["kind"], string> = {
   top: "Drag it up or down",
 };
 
+/** With numbers and their units on one line. */
+const unbroken = (text: string) => text.replaceAll(/(\d) m\b/g, "$1\u00a0m");
+
 /** What the view itself makes of the pointer over a handle. */
 const passOn = (event: Event) => document.querySelector(".view canvas")?.dispatchEvent(event);
 
@@ -275,8 +278,7 @@ export function Handles({ images }: { images: ReadonlySignal<number> }) {
         />
       ))}
       <output class="edit-handle-words" hidden={!words.value}>
-        {words.value}
-        {words.value && error}
+        {words.value && unbroken(words.value + error)}
       </output>
     </div>
   );
