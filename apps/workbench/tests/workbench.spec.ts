@@ -1985,7 +1985,7 @@ test.describe("on a touch screen", () => {
       return [box.x + box.width / 2, box.y + box.height / 2] as [number, number];
     };
     const from = await middle(point);
-    await drag([from, [from[0], from[1] - 25]]);
+    await drag([from, [from[0], from[1] - 5]]); // not so far that it is above the scan
     await expect.poll(async () => volume(await buildingOf(page, house.id))).toBeGreaterThan(volume(before_edit) + 1);
     const corner = await middle(page.getByRole("button", { name: /^corner 0 at/ }));
     const [x, y] = (await buildingOf(page, house.id)).parts[0]!.plan.outer.points[0]!;
