@@ -20,6 +20,7 @@ export function Roofs() {
   const also = state.also.value;
   const box = useRef<HTMLDivElement>(null);
   const resting = useRef<ReturnType<typeof setTimeout>>();
+  const entered = useRef<Choice | null>(null); // under the pointer, which has not moved since
   if (reach.value === "selected" && !also.length) reach.value = "part";
   const key = `${state.run.value?.id} ${at.building} ${at.part} ${also.map((a) => a.part).join(" ")} ${reach.value}`;
   // A roof that is shown is that of the parts that were selected: it ends with the selection, and with the panel.
@@ -55,6 +56,10 @@ export function Roofs() {
   const over = (event: PointerEvent, choice: Choice) => {
     // Fitting by measuring takes seconds: only on request.
     if (event.pointerType !== "mouse" || event.buttons || choice === "plane" || (alone && choice === "fitted")) return;
+    if (event.type === "pointerenter") entered.current = choice;
+    // Not where a panel appears under a pointer that rests.
+    if (entered.current !== choice || (event.movementX === 0 && event.movementY === 0)) return;
+    entered.current = null;
     clearTimeout(resting.current);
     resting.current = setTimeout(() => {
       if (!making.value && shownChoice.value !== choice) void show(choice, false);
@@ -96,6 +101,7 @@ export function Roofs() {
           aria-busy={making.value === choice}
           tabIndex={current === choice || (!choices.some((c) => c.choice === current) && choice === choices[0]!.choice) ? 0 : -1}
           onPointerEnter={(event) => over(event, choice)}
+          onPointerMove={(event) => over(event, choice)}
           onPointerLeave={() => clearTimeout(resting.current)}
           onClick={() => choose(choice)}
           onKeyDown={(event) => pressed(event, choice)}
