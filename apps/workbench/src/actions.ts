@@ -597,7 +597,8 @@ async function step(which: "undo" | "redo") {
   if (!answer) return;
   take(open.id, answer);
   // What it said of the edit is not so any more.
-  state.messages.value = state.messages.value.filter((m) => m.code !== "edit-dormers");
+  const ofEdits = ["edit-dormers", "edit-dormer-moved", "edit-error", "edit-several"];
+  state.messages.value = state.messages.value.filter((m) => !ofEdits.includes(m.code));
 }
 
 /** Applies the edits of another run to this one, and says which buildings they do not fit any more. */

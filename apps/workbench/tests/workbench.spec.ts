@@ -82,6 +82,9 @@ async function pickEdge(page: Page, edge: number) {
 
 const canvas = (page: Page) => page.locator("main canvas").first();
 
+/** Saves the roof that is shown. */
+const keep = (page: Page) => page.getByRole("button", { name: /^Keep/ }).click();
+
 /** An item of the menu "Export". Names of other files may begin with this name. */
 const menuItem = (page: Page, file: string) =>
   page.getByRole("menuitem", { name: new RegExp(`^${file.replaceAll(".", "\\.")}\\s`) });
@@ -142,7 +145,7 @@ test("the sample is read, reconstructed, edited, undone and exported", { tag: "@
     const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
     await page.mouse.move(x, y);
     await page.mouse.down();
-    for (let i = 1; i <= 12; ++i) await page.mouse.move(x, y - 2.5 * i);
+    for (let i = 1; i <= 12; ++i) await page.mouse.move(x, y - i); // not so far that it is above the scan
     // The new solid is previewed before the button is released, and nothing is saved yet.
     await expect
       .poll(() =>
@@ -153,7 +156,7 @@ test("the sample is read, reconstructed, edited, undone and exported", { tag: "@
       )
       .toBeGreaterThan(volume(before) + 1);
     expect((await buildingOf(page, house.id)).revision).toBe(before.revision);
-    await page.mouse.move(x, y - 30); // no other preview follows
+    await page.mouse.move(x, y - 12); // no other preview follows
     await expect.poll(() => state(page, (s) => s.draft.value?.pending)).toBe(false);
     await idle(page);
     const dragged = await canvas(page).screenshot();
@@ -506,6 +509,7 @@ test("each run has its own marks, edits are carried over, and merging across bui
   });
 
   await page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Flat" }).click();
+  await keep(page);
   await expect.poll(async () => (await buildingOf(page, house.id)).edited).toBe(true);
   const { plan } = (await buildingOf(page, house.id)).parts[0]!;
   await reconstruct(page, "second");
@@ -749,7 +753,7 @@ test("the gutter is one operation, dragged or typed", async ({ clean: page, serv
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   await page.mouse.move(x, y);
   await page.mouse.down();
-  for (let i = 1; i <= 8; ++i) await page.mouse.move(x, y - 3 * i);
+  for (let i = 1; i <= 8; ++i) await page.mouse.move(x, y - 1.25 * i);
   await page.mouse.up();
   await expect.poll(planNow).not.toEqual(house.parts[0]!.plan);
   const dragged = await planNow();
@@ -1162,7 +1166,7 @@ test("dark colours have enough contrast, menus work with keys, and the manual is
   expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe("dark");
 });
 
-test("roof shapes are applied in one click, and the view is divided", async ({ clean: page, server }) => {
+test("roof shapes are chosen and kept, and the view is divided", async ({ clean: page, server }) => {
   await openSample(page, server);
   await reconstruct(page, "shaped");
   const house = await aHouse(page);
@@ -1171,6 +1175,7 @@ test("roof shapes are applied in one click, and the view is divided", async ({ c
   let before = await buildingOf(page, house.id);
   for (const shape of ["Hip", "Mansard", "Gable", "Flat"]) {
     await shapes.getByRole("button", { name: shape }).click();
+    await keep(page);
     await expect.poll(async () => (await buildingOf(page, house.id)).revision).toBeGreaterThan(before.revision);
     const after = await buildingOf(page, house.id);
     expect(after.valid, shape).toBe(true);
@@ -1218,6 +1223,225 @@ test("roof shapes are applied in one click, and the view is divided", async ({ c
     await page.getByRole("tab", { name: "Edit" }).click();
     await both.click();
     await expect(edges).toHaveCount(0);
+  });
+});
+
+test("a roof is shown with its error before it is saved", { tag: "@firefox" }, async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "first");
+  const house = await aHouse(page);
+  await pick(page, house.id);
+  await page.getByRole("button", { name: "Close the first steps" }).click();
+  const shapes = page.getByRole("group", { name: "Roof shape" });
+  const shape = (name: string) => shapes.getByRole("button", { name, exact: true });
+  const keepButton = page.getByRole("button", { name: /^Keep/ });
+  const saved = () => state(page, (s) => s.run.value!.history.done);
+  /** What is drawn of the building, and the error beside it. */
+  const drawn = () =>
+    page.evaluate((id) => {
+      const { draft, run } = (window as unknown as Known["window"]).mansard.state;
+      const b = draft.value?.raised.get(id) ?? run.value!.buildings.get(id)!;
+      return { mse: b.mse, volume: b.parts.reduce((sum, p) => sum + p.volume, 0), pending: draft.value?.pending ?? false };
+    }, house.id);
+  const text = (a: number, b: number) => `RMSE ${Math.sqrt(a).toFixed(3)} → ${Math.sqrt(b).toFixed(3)} m`;
+  const shownError = async () => {
+    await expect.poll(async () => (await drawn()).pending).toBe(false);
+    await expect(page.locator(".offered-error")).toHaveText(text(house.mse!, (await drawn()).mse!));
+  };
+
+  await test.step("under the pointer, and not any more when it leaves", async () => {
+    await shape("Pyramid").hover();
+    await expect(shape("Pyramid")).toHaveAttribute("aria-pressed", "true");
+    await shownError();
+    expect((await drawn()).volume).not.toBeCloseTo(volume(house), 3);
+    await expect(keepButton).toHaveCount(0);
+    await page.getByRole("tab", { name: "Edit" }).hover();
+    await expect(page.locator(".offered-error")).toHaveCount(0);
+    expect((await drawn()).volume).toBe(volume(house));
+    expect(await saved()).toBe(0);
+  });
+
+  await test.step("chosen, another one under the pointer, and back", async () => {
+    await shape("Hip").click();
+    await expect(keepButton).toBeVisible();
+    await shownError();
+    const hip = await drawn();
+    await shape("Flat").hover();
+    await expect(shape("Flat")).toHaveAttribute("aria-pressed", "true");
+    await expect(keepButton).toHaveCount(0);
+    await page.getByRole("tab", { name: "Edit" }).hover();
+    await expect(keepButton).toBeVisible();
+    await shownError();
+    expect((await drawn()).volume).toBeCloseTo(hip.volume, 9);
+    await picture(page, "roof-shown");
+    expect(await faint(page)).toEqual([]);
+    await page.getByRole("button", { name: "Discard" }).click();
+    await expect(keepButton).toHaveCount(0);
+    expect(await drawn()).toMatchObject({ mse: house.mse, volume: volume(house) });
+    await expect(shape("Hip")).toBeFocused();
+  });
+
+  await test.step("with the keyboard alone: arrows show, Escape goes back, Enter keeps, one undo", async () => {
+    await page.keyboard.press("ArrowRight");
+    await expect(shape("Pyramid")).toBeFocused();
+    await expect(shape("Pyramid")).toHaveAttribute("aria-pressed", "true");
+    await page.keyboard.press("ArrowLeft");
+    await page.keyboard.press("ArrowLeft");
+    await expect(shape("Gable")).toHaveAttribute("aria-pressed", "true");
+    await shownError();
+    await page.keyboard.press("Escape");
+    await expect(keepButton).toHaveCount(0);
+    expect(await saved()).toBe(0);
+    await page.keyboard.press("Enter");
+    await expect(shape("Gable")).toHaveAttribute("aria-pressed", "true");
+    await shownError();
+    const gable = await drawn();
+    await page.keyboard.press("Enter");
+    await expect.poll(saved).toBe(1);
+    expect((await buildingOf(page, house.id)).mse).toBe(gable.mse); // the error is that of the saved model
+    await page.keyboard.press("Control+z");
+    await expect.poll(saved).toBe(0);
+    expect((await buildingOf(page, house.id)).parts[0]!.plan).toEqual(house.parts[0]!.plan);
+  });
+
+  await test.step("not saved where the selection changes, the panel or the page is left", async () => {
+    const another = (await buildings(page)).find((b) => b.id !== house.id && b.parts.length)!;
+    const ends = async (act: () => Promise<unknown>) => {
+      await shape("Flat").click();
+      await expect(keepButton).toBeVisible();
+      await act();
+      await expect(keepButton).toHaveCount(0);
+      await expect.poll(() => state(page, (s) => s.draft.value === null)).toBe(true);
+      expect(await saved()).toBe(0);
+      await pick(page, house.id);
+    };
+    await ends(() => pick(page, another.id));
+    await ends(() => page.getByRole("tab", { name: "Run" }).click());
+    await ends(async () => {
+      await page.reload();
+      await open(page, "first");
+    });
+    await ends(() => page.keyboard.press("Control+z"));
+  });
+
+  await test.step("an edit of what is shown is saved with it, as one step", async () => {
+    await shape("Hip").click();
+    await expect(keepButton).toBeVisible();
+    const cap = page.getByRole("textbox", { name: "Cap, metres" });
+    await cap.fill("3.5");
+    await cap.press("Enter");
+    await expect.poll(saved).toBe(1);
+    expect(await state(page, (s) => s.run.value!.history.edits)).toEqual([`hip roof, cap of ${house.parts[0]!.id} to 3.50 m`]);
+    await page.getByRole("button", { name: /^Undo/ }).click();
+    await expect.poll(saved).toBe(0);
+  });
+
+  await test.step("a plane that was moved away is fitted again", async () => {
+    const edge = pitched(house.parts[0]!.plan)[0]!;
+    await pickEdge(page, edge);
+    const gutter = page.getByRole("textbox", { name: "Gutter, metres" });
+    await gutter.fill((Number(await gutter.inputValue()) + 0.8).toFixed(2));
+    await gutter.press("Enter");
+    await expect.poll(saved).toBe(1);
+    const off = await buildingOf(page, house.id);
+    expect(off.mse!).toBeGreaterThan(house.mse!);
+    await shape("Fit plane").click();
+    await keep(page);
+    await expect.poll(saved).toBe(2);
+    const fitted = await buildingOf(page, house.id);
+    expect(Math.sqrt(fitted.mse!)).toBeLessThan(Math.sqrt(house.mse!) + 0.02);
+    const others = (p: api.Plan) => p.outer.profile_of_edge.flatMap((i, e) => (e === edge ? [] : [p.profiles[i]![1]]));
+    expect(others(fitted.parts[0]!.plan).length).toBe(others(off.parts[0]!.plan).length);
+  });
+});
+
+test("ridges, eaves and faces have handles in the view", { tag: "@firefox" }, async ({ clean: page, server }) => {
+  await openSample(page, server);
+  await reconstruct(page, "first");
+  // A roof of two slopes that meet at a ridge.
+  const roofsOf = (b: api.Building) => b.parts[0]!.geometry!.faces.filter((f) => f.class === "roof");
+  const house = (await buildings(page)).filter(
+    (b) => b.parts.length === 1 && b.mse !== null && pitched(b.parts[0]!.plan).length === 2 && roofsOf(b).length === 2 && roofsOf(b).every((f) => f.edge !== null),
+  )[0]!;
+  expect(house, "the sample has a gable roof").toBeTruthy();
+  await pick(page, house.id);
+  await page.getByRole("button", { name: "Close the first steps" }).click();
+  await idle(page);
+  const planNow = async () => (await buildingOf(page, house.id)).parts[0]!.plan;
+  const before = house.parts[0]!.plan;
+  const handle = (kind: string) => page.locator(`.edit-handle.${kind}:visible`).first();
+  const gutters = (p: api.Plan) => pitched(p).map((e) => p.profiles[p.outer.profile_of_edge[e]!]![1]![1]);
+  const pitches = (p: api.Plan) =>
+    pitched(p).map((e) => {
+      const [, a, b] = p.profiles[p.outer.profile_of_edge[e]!]!;
+      return (b![1] - a![1]) / (b![0] - a![0]);
+    });
+  const top = (b: api.RaisedBuilding) => Math.max(...b.parts[0]!.geometry!.positions.filter((_, i) => i % 3 === 2));
+  const drag = async (kind: string, dx: number, dy: number) => {
+    const box = (await handle(kind).boundingBox())!;
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    for (let i = 1; i <= 6; ++i) await page.mouse.move(x + (dx * i) / 6, y + (dy * i) / 6);
+    await expect(page.locator(".edit-handle-words")).toContainText("RMSE");
+    if (kind === "ridge") await picture(page, "handles");
+    await page.mouse.up();
+    await expect.poll(planNow).not.toEqual(before);
+  };
+  const undo = async () => {
+    await page.getByRole("button", { name: /^Undo/ }).click();
+    await expect.poll(planNow).toEqual(before);
+    await idle(page);
+  };
+
+  await test.step("a ridge goes up: the pitches change, the eaves stay", async () => {
+    await drag("ridge", 0, -20);
+    const now = await planNow();
+    expect(gutters(now)).toEqual(gutters(before));
+    pitches(now).forEach((p, i) => expect(p).toBeGreaterThan(pitches(before)[i]!));
+    const after = await buildingOf(page, house.id);
+    expect(top(after)).toBeGreaterThan(top(house) + 0.05);
+    expect(roofsOf(after).length, "no cap cuts it off").toBe(2);
+    await undo();
+  });
+
+  await test.step("an eave takes its roof along, and a face keeps its pitch", async () => {
+    await drag("eave", 0, -15);
+    let now = await planNow();
+    expect(gutters(now).filter((g, i) => Math.abs(g - gutters(before)[i]!) > 1e-6).length).toBe(1);
+    pitches(now).forEach((p, i) => expect(p).toBeCloseTo(pitches(before)[i]!, 6));
+    await undo();
+    await drag("face", 0, -15);
+    now = await planNow();
+    pitches(now).forEach((p, i) => expect(p).toBeCloseTo(pitches(before)[i]!, 6));
+    await undo();
+  });
+
+  await test.step("with keys, up and sideways; Escape takes a drag back", async () => {
+    await handle("ridge").focus();
+    await page.keyboard.press("ArrowUp");
+    await expect.poll(async () => top(await buildingOf(page, house.id))).toBeCloseTo(top(house) + 0.1, 2);
+    await undo();
+    await handle("ridge").focus();
+    await page.keyboard.press("ArrowRight");
+    await expect.poll(planNow).not.toEqual(before);
+    const [was, is] = [pitches(before), pitches(await planNow())];
+    expect((is[0]! - was[0]!) * (is[1]! - was[1]!), "one side is steeper, the other less steep").toBeLessThan(0);
+    expect(top(await buildingOf(page, house.id))).toBeCloseTo(top(house), 2);
+    await undo();
+    const box = (await handle("eave").boundingBox())!;
+    await page.mouse.move(box.x + 12, box.y + 12);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 12, box.y - 10, { steps: 4 });
+    await page.keyboard.press("Escape");
+    await page.mouse.up();
+    expect(await state(page, (s) => s.draft.value)).toBeNull();
+    expect(await planNow()).toEqual(before);
+  });
+
+  await test.step("they are there in the panel Edit only", async () => {
+    await page.getByRole("tab", { name: "Run" }).click();
+    await expect(page.locator(".edit-handle")).toHaveCount(0);
   });
 });
 
@@ -1269,6 +1493,7 @@ test("the scan and the models have the colours of the scan", { tag: "@firefox" }
   await test.step("an edited building has the colours of its new faces", async () => {
     const before = await buildingOf(page, "gable");
     await page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Flat" }).click();
+    await keep(page);
     await expect.poll(async () => (await buildingOf(page, "gable")).revision).toBeGreaterThan(before.revision);
     await expect.poll(() => pictures(page)).toEqual([1, 2]);
     await idle(page);
@@ -1391,6 +1616,9 @@ test("roofs of a row, parts like another, an annex and a deleted part", { tag: "
     const alone = await planOf("right");
     await roofs.getByLabel("Parts that get the roof").selectOption("row");
     await roofs.getByRole("button", { name: "Gable" }).click();
+    await expect(page.getByText(/Gable roofs of 2 parts/)).toBeVisible();
+    expect((await buildingOf(page, "middle")).edited).toBe(false);
+    await keep(page);
     await expect.poll(async () => (await buildingOf(page, "middle")).edited).toBe(true);
     for (const id of ["left", "middle"]) {
       const plan = await planOf(id);
@@ -1410,15 +1638,30 @@ test("roofs of a row, parts like another, an annex and a deleted part", { tag: "
   await test.step("another house is made alike", async () => {
     await roofs.getByLabel("Parts that get the roof").selectOption("part");
     await roofs.getByRole("button", { name: "Flat" }).click();
+    await keep(page);
     await expect.poll(async () => sloped(await planOf("left"))).toBe(0);
     const right = await topOf(page, "right");
     await page.keyboard.down("Shift");
     await page.mouse.click(right.x, right.y);
     await page.keyboard.up("Shift");
     await roofs.getByRole("button", { name: "Make alike" }).click();
+    await keep(page);
     await expect.poll(async () => sloped(await planOf("right"))).toBe(0);
     expect((await planOf("right")).cap).toBe((await planOf("left")).cap);
     expect((await buildingOf(page, "right")).valid).toBe(true);
+  });
+
+  await test.step("a value that is typed goes to both of them, as one edit", async () => {
+    await expect(page.getByText("Values go to 2 selected parts")).toBeVisible();
+    const before = await Promise.all(["left", "right"].map((id) => planOf(id)));
+    const cap = page.getByRole("textbox", { name: "Cap, metres" });
+    await cap.fill("7.25");
+    await cap.press("Enter");
+    for (const id of ["left", "right"]) await expect.poll(async () => (await planOf(id)).cap).toBe(7.25);
+    const { history } = await state(page, (s) => ({ history: s.run.value!.history }));
+    expect(history.edits.at(-1)).toBe("cap of left-1 to 7.25 m and 1 other part");
+    await page.getByRole("button", { name: /^Undo/ }).click();
+    for (const [i, id] of ["left", "right"].entries()) await expect.poll(() => planOf(id)).toEqual(before[i]);
   });
 
   await test.step("an annex is drawn beside the house, and deleted", async () => {
@@ -1539,12 +1782,35 @@ test("dormers are parts: moved, resized, given other roofs, deleted and added", 
     });
     await check(id);
     expect((await planOf(id)).cap).toBeCloseTo(wide.cap - 0.2, 2);
-    await changes(() => page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Gable" }).click());
+    await changes(async () => {
+      await page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Gable" }).click();
+      await keep(page);
+    });
     await check(id);
     const gabled = await planOf(id);
     expect(gabled.outer.profile_of_edge.map((p) => gabled.profiles[p]!.length > 2)).toEqual([false, true, false, true]);
     await idle(page);
     await picture(page, "dormer-gable");
+  });
+
+  await test.step("placed roughly, it is fitted to the scan", async () => {
+    const before = await planOf(id);
+    const error = async () => Math.sqrt((await now()).mse!);
+    await changes(async () => {
+      await page.getByRole("button", { name: /^dormer: move it/ }).focus();
+      await page.keyboard.down("Shift");
+      await page.keyboard.press("ArrowLeft");
+      await page.keyboard.up("Shift");
+    });
+    const rough = await error();
+    await page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Fit", exact: true }).click();
+    await expect(page.getByRole("button", { name: /^Keep/ })).toBeVisible();
+    await changes(() => keep(page));
+    await check(id);
+    expect(await error()).toBeLessThan(rough);
+    await changes(undo);
+    await changes(undo);
+    expect(await planOf(id)).toEqual(before);
   });
 
   await test.step("it follows the gutter of its roof", async () => {
@@ -1605,7 +1871,11 @@ test("dormers are parts: moved, resized, given other roofs, deleted and added", 
 
   await test.step("a flat roof has none, and says so", async () => {
     await page.getByLabel("Part", { exact: true }).selectOption({ label: "part 1" });
-    await changes(() => page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Flat" }).click());
+    await changes(async () => {
+      await page.getByRole("group", { name: "Roof shape" }).getByRole("button", { name: "Flat" }).click();
+      await expect(page.getByText("1 dormer would be removed")).toBeVisible();
+      await keep(page);
+    });
     expect((await now()).parts.length).toBe(1);
     await expect(page.getByText(/no slope any more for a dormer/)).toBeVisible();
     await changes(undo);
@@ -1664,6 +1934,7 @@ test("a run of thousands of buildings is a list at once, and models come near th
   // It is edited like any other, and a click in the view selects a building.
   await page.getByRole("tab", { name: "Edit" }).click();
   await page.getByRole("button", { name: "Flat", exact: true }).click();
+  await keep(page);
   await expect.poll(async () => (await buildingOf(page, "b4017")).edited).toBe(true);
   await page.getByRole("tab", { name: "Buildings" }).click();
   await page.getByLabel("Filter buildings").fill("edited");
@@ -1714,7 +1985,7 @@ test.describe("on a touch screen", () => {
       return [box.x + box.width / 2, box.y + box.height / 2] as [number, number];
     };
     const from = await middle(point);
-    await drag([from, [from[0], from[1] - 25]]);
+    await drag([from, [from[0], from[1] - 5]]); // not so far that it is above the scan
     await expect.poll(async () => volume(await buildingOf(page, house.id))).toBeGreaterThan(volume(before_edit) + 1);
     const corner = await middle(page.getByRole("button", { name: /^corner 0 at/ }));
     const [x, y] = (await buildingOf(page, house.id)).parts[0]!.plan.outer.points[0]!;

@@ -9,7 +9,8 @@ import { selectEdge, shortId, shortName } from "./desk";
 import { session, showDraft } from "./here";
 import { PlanEditor } from "./plan_editor";
 import { ProfileEditor } from "./profile_editor";
-import { Roofs } from "./roofs";
+import { keepShown } from "./offers";
+import { Offered, OfferedWords, Roofs } from "./roofs";
 import { structuresOf } from "./structures";
 import { divided } from "../view/layers";
 
@@ -21,11 +22,19 @@ export function EditPanel() {
 
   useEffect(() => {
     const escape = (event: KeyboardEvent) => {
-      // Esc cancels a drag whatever has the focus; it discards an unsaved draft only if no element has the focus.
+      // Enter keeps a roof that is shown, unless the element that has the focus has another use for it.
+      if (event.key === "Enter" && session.phase.value === "offered" && (event.target === document.body || event.target instanceof HTMLCanvasElement)) {
+        event.stopPropagation();
+        keepShown();
+        return;
+      }
+      // Esc cancels a drag whatever has the focus, and takes back a roof that is shown; it discards an unsaved draft only if no
+      // element has the focus.
       const free = event.target === document.body || box.current?.contains(event.target as Node);
       if (event.key !== "Escape") return;
+      const typing = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement;
       if (
-        session.phase.value === "changing"
+        session.phase.value === "changing" || (session.phase.value === "offered" && !typing)
           ? session.cancel()
           : free && event.target === document.body && session.cancel()
       )
@@ -103,6 +112,7 @@ export function EditPanel() {
 const words = {
   idle: "",
   changing: "",
+  offered: "not saved",
   checking: "checking …",
   saving: "saving …",
   held: "",
@@ -166,6 +176,8 @@ function EditBar() {
       </div>
       <Roofs />
       <Held />
+      <Offered />
+      <OfferedWords />
     </header>
   );
 }
@@ -175,7 +187,7 @@ function Held() {
   const draft = state.draft.value;
   const reason = session.reason.value;
   const held = session.phase.value === "held";
-  if (!draft || (!reason && !held)) return null;
+  if (!draft || (!reason && !held) || session.phase.value === "offered") return null;
   const selected = state.selection.value?.building;
   const elsewhere = draft.changes.every((c) => c.building !== selected);
   return (

@@ -41,7 +41,7 @@ import {
 import { Backdrop, Corners, Edges, Marks, ringPoints, ScaleBar, type Dimension, type Grip, type Grips } from "./plan_layers";
 import { PlanHint, PlanTools, type Tool } from "./plan_tools";
 import { fitted, panned, ruling, toMetres, zoomed } from "./sheet";
-import { bare, removed, structuresOf, withDormer, withStructure } from "./structures";
+import { bare, nearestDormer, removed, structuresOf, withStructure } from "./structures";
 import { snapDrawn, snapEdge, snapMove, snapVertex, surroundings, type Guide, type Snap, type Surroundings } from "./snap";
 import { useSheet } from "./use_sheet";
 import { contains, cross, distance, dot, middle, minus, nearestOn, plus, turnedLeft, unit } from "./vector";
@@ -448,19 +448,27 @@ export function PlanEditor() {
   const addDormer = (p: Point2) => {
     const parts = partsOf(building).map(({ id, plan }) => ({ id, plan }));
     const geometry = raisedPart.value?.geometry;
-    const made = geometry ? withDormer(building, parts, part, geometry, p) : null;
+    const made = geometry ? nearestDormer(building, parts, part, geometry, p) : null;
     leaveDrawing();
     if (!made) {
       showMessage({
         severity: "warning",
         code: "edit-no-dormer",
-        message: "a dormer needs a slope of 14° to 63° with room for it, at least 1.2 m wide, above the point that is clicked; click nearer to the middle of a slope",
+        message: "a dormer needs a slope of 14° to 63° with free space for it, at least 1.2 m wide; there is none within 3 m of the point that is clicked",
         subject: part,
       });
       return;
     }
-    if (session.propose(`dormer ${made.id} added`, [{ building, parts: made.parts }]))
-      select({ building, part: made.id, ring: 0, edge: null });
+    if (!session.propose(`dormer ${made.id} added`, [{ building, parts: made.parts }])) return;
+    state.messages.value = state.messages.value.filter((m) => m.code !== "edit-no-dormer");
+    select({ building, part: made.id, ring: 0, edge: null });
+    if (made.moved > 0)
+      showMessage({
+        severity: "warning",
+        code: "edit-dormer-moved",
+        message: `a dormer does not fit at the point that is clicked; it is ${metres(made.moved)} away, at the nearest place where it fits`,
+        subject: made.id,
+      });
   };
   const remove = () => {
     const rest = removed(partsOf(building), part);

@@ -2,6 +2,7 @@ import { useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type * as api from "../api/types";
 import type { Point2, ProfilePoint } from "../api/types";
+import { showMessage } from "../actions";
 import * as state from "../state";
 import {
   arrow,
@@ -18,6 +19,7 @@ import {
   withPlan,
 } from "./desk";
 import { session } from "./here";
+import { capOver } from "./handles";
 import { cubicMetres, metres } from "./numbers";
 import { changeProfiles, collinear, edgesOf, inScope, opposite, profileOf, ringOf, setProfile, type EdgeAt, type Scope } from "./plan";
 import {
@@ -31,6 +33,7 @@ import {
   lifted,
   movePoint,
   onPart,
+  pitchOf,
   same,
   slopes,
   slopeTo,
@@ -39,6 +42,7 @@ import {
 } from "./profile";
 import { Backdrop, lineOf } from "./profile_backdrop";
 import { ProfileFields } from "./profile_fields";
+import { onSeveral, type Change, type PartAt } from "./several";
 import { fitted, panned, toMetres, toPixels, zoomed } from "./sheet";
 import { known, rounded, snapProfilePoint, type ProfileSnap } from "./snap";
 import { count, rmse } from "../panels/words";
@@ -56,6 +60,7 @@ interface Drag {
   plan: api.Plan;
   parts: api.NamedPlan[]; // of the building, at the start of the drag
   profile: Profile;
+  ridge: number; // of the part
   began: boolean;
 }
 
@@ -113,6 +118,41 @@ export function ProfileEditor() {
   const who = targets.length === 1 ? `edge ${at.edge} of ${part}` : `${targets.length} edges of ${part}`;
   const typed = (what: string, changed: api.Plan) => session.propose(what, withPlan(changed));
   const typedProfile = (what: string, changed: Profile) => typed(what, withProfile(plan, changed));
+  const others = state.also.value.filter((a) => a.building !== selection.building || a.part !== part);
+  /** A typed value, for all selected parts. */
+  const typedValue = (what: string, change: Change) => {
+    const first = { building: selection.building, part, edges: inScope(plan, at, scope.value) };
+    const { parts, changed, left } = onSeveral(first, others, scope.value === "part", change, partsOf);
+    if (!session.propose(changed > 1 ? `${what} and ${count(changed - 1, "other part")}` : what, parts)) return;
+    if (left.length)
+      showMessage({
+        severity: "warning",
+        code: "edit-several",
+        message: `${count(left.length, "selected part")} ${left.length === 1 ? "stays" : "stay"} as before: no edge that faces the same way has this value`,
+        subject: left.join(", "),
+      });
+  };
+  const ridgeAt = (of: PartAt) => ridgeOf(state.shown(of.building)?.parts.find((p) => p.id === of.part)) ?? 0;
+  const typedProfiles = (what: string, change: (profile: Profile) => Profile | null) =>
+    typedValue(what, (from, edges, of) => {
+      // The edges of this part get the same profile, as when it is dragged.
+      const changed = change(profile);
+      const next = from !== plan ? changeProfiles(from, edges, change) : changed ? setProfile(from, edges, changed) : from;
+      // A steeper slope rises over its run to the ridge.
+      const ridge = ridgeAt(of);
+      const rises = edges.map((e) => {
+        const [was, is] = [profileOf(from, e)!, profileOf(next, e)!];
+        const [pitch, gutter] = [pitchOf(was), gutterOf(was)];
+        return gutter !== null && pitch ? ((pitchOf(is) ?? pitch) / pitch - 1) * (ridge - gutter) + (gutterOf(is) ?? gutter) - gutter : 0;
+      });
+      return { ...next, cap: capOver(from, ridge, Math.max(0, ...rises.filter(Number.isFinite))) };
+    });
+  const typedGutter = (height: number) =>
+    typedValue(gutterWords(height), (from, edges, of) => {
+      const changed = changeProfiles(from, edges, (p) => (gutterOf(p) === null ? null : withGutter(p, height)));
+      const rises = edges.map((e) => height - (gutterOf(profileOf(from, e)!) ?? height));
+      return { ...changed, cap: capOver(from, ridgeAt(of), Math.max(0, ...rises)) };
+    });
 
   const snap = (event: { altKey: boolean }, from: api.Plan): ProfileSnap => {
     const changing = inScope(from, at, scope.value);
@@ -126,11 +166,13 @@ export function ProfileEditor() {
     };
   };
   /** The gutter of all edges in scope, whether it is typed, dragged or moved with the keyboard: the roof moves along. */
-  const withGutters = (from: api.Plan, height: number) =>
-    changeProfiles(from, inScope(from, at, scope.value), (p) => (gutterOf(p) === null ? null : withGutter(p, height)));
+  const withGutters = (from: api.Plan, height: number, top: number) => ({
+    ...changeProfiles(from, inScope(from, at, scope.value), (p) => (gutterOf(p) === null ? null : withGutter(p, height))),
+    cap: capOver(from, top, height - Math.min(height, ...inScope(from, at, scope.value).flatMap((e) => gutterOf(profileOf(from, e)!) ?? []))),
+  });
   const gutterWords = (height: number) => `gutter of ${who} to ${metres(height)}`;
   const gutterMoved = (from: api.Plan, height: number, hints: string[], time: number) => {
-    session.change(gutterWords(height), withPlan(withGutters(from, height), drag.current?.parts), time);
+    session.change(gutterWords(height), withPlan(withGutters(from, height, drag.current?.ridge ?? ridge ?? 0), drag.current?.parts), time);
     words.value = `gutter at ${metres(height)}; the roof moves along${hints.length ? ` · ${hints.join(", ")}` : ""}`;
   };
   const describe = (changed: Profile, i: number, hints: string[] = []) => {
@@ -147,7 +189,7 @@ export function ProfileEditor() {
     if (event.button > 1) return;
     event.stopPropagation();
     const p: Point2 = [event.clientX, event.clientY];
-    drag.current = { kind: event.button === 1 ? "pan" : kind, i, down: p, last: p, plan, parts: partsOf(selection.building), profile, began: false };
+    drag.current = { kind: event.button === 1 ? "pan" : kind, i, down: p, last: p, plan, parts: partsOf(selection.building), profile, ridge: ridge ?? 0, began: false };
   };
   const move = (event: PointerEvent) => {
     const d = drag.current;
@@ -475,14 +517,19 @@ export function ProfileEditor() {
         point={point.value}
         share={share.value}
         onShare={(value) => (share.value = value)}
-        onPlan={typed}
-        onProfile={typedProfile}
+        several={others.length + 1}
+        onPlan={typedValue}
+        onProfile={typedProfiles}
         onMove={(i, to) =>
           i === gutterPoint(profile) && to[0] === profile[i]![0]
-            ? typed(gutterWords(to[1]), withGutters(plan, to[1]))
-            : typedProfile(`profile of ${who}`, movePoint(profile, i, to))
+            ? typedGutter(to[1])
+            : typedProfiles(`profile of ${who}`, (p) => {
+                if (p.length !== profile.length) return null;
+                const [inward, height] = profile[i]!;
+                return movePoint(p, i, [to[0] === inward ? p[i]![0] : to[0], to[1] === height ? p[i]![1] : to[1]]);
+              })
         }
-        onGutter={(height) => typed(gutterWords(height), withGutters(plan, height))}
+        onGutter={typedGutter}
         onRemove={remove}
       />
       <dl class="edit-numbers" aria-live="polite">

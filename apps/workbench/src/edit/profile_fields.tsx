@@ -22,8 +22,10 @@ export function ProfileFields(props: {
   point: number | null;
   share: number;
   onShare(share: number): void;
-  onPlan(what: string, plan: Plan): void;
-  onProfile(what: string, profile: Profile): void;
+  several: number; // selected parts that values go to
+  /** Changes of the part, and of its profiles: for each that has the values which are changed. */
+  onPlan(what: string, change: (plan: Plan) => Plan): void;
+  onProfile(what: string, change: (profile: Profile) => Profile | null): void;
   onMove(i: number, to: ProfilePoint): void;
   onGutter(height: number): void;
   onRemove(i: number): void;
@@ -33,9 +35,12 @@ export function ProfileFields(props: {
   const point = i > 0 ? profile[i] : undefined;
   const slope = point ? slopeTo(profile, i) : null;
   const pitch = pitchOf(profile);
-  const turn = (at: number, degrees: number) => {
+  const turn = (at: number | null, degrees: number) => {
     if (degrees >= 0 && degrees < 90)
-      onProfile(`pitch of ${who} to ${degrees.toFixed(1)}°`, withSlope(profile, at, slopeOfDegrees(degrees)));
+      onProfile(`pitch of ${who} to ${degrees.toFixed(1)}°`, (p) => {
+        const i = at ?? lastRoof(p);
+        return i > 0 && (at === null || p.length === profile.length) ? withSlope(p, i, slopeOfDegrees(degrees)) : null;
+      });
   };
   return (
     <div class="edit-fields">
@@ -52,6 +57,11 @@ export function ProfileFields(props: {
         />
         <output>{Math.round(share * 100)} %</output>
       </label>
+      {props.several > 1 && (
+        <span class="edit-several" title="A cap or a base goes to every selected part; a gutter, a pitch or a point to the edges of the others that face the same way, or to all edges with “Apply to all edges”">
+          Values go to {props.several} selected parts
+        </span>
+      )}
       <NumberField
         label="Gutter"
         unit="m"
@@ -65,21 +75,21 @@ export function ProfileFields(props: {
         digits={2}
         value={pitch === null ? null : degreesOf(pitch)}
         title="Pitch of the topmost roof segment"
-        onValue={(degrees) => turn(lastRoof(profile), degrees)}
+        onValue={(degrees) => turn(null, degrees)}
       />
       <NumberField
         label="Cap"
         unit="m"
         value={plan.cap}
         title="Height above the base at which the part is cut off horizontally"
-        onValue={(cap) => onPlan(`cap of ${part} to ${metres(cap)}`, { ...plan, cap })}
+        onValue={(cap) => onPlan(`cap of ${part} to ${metres(cap)}`, (p) => ({ ...p, cap }))}
       />
       <NumberField
         label="Base"
         unit="m"
         value={plan.base}
         title="Height z of the bottom of the part"
-        onValue={(base) => onPlan(`base of ${part} to ${metres(base)}`, { ...plan, base })}
+        onValue={(base) => onPlan(`base of ${part} to ${metres(base)}`, (p) => ({ ...p, base }))}
       />
       <span class="edit-point" role="group" aria-label="Selected point">
         <b>{point ? `Point ${i}` : "No point"}</b>

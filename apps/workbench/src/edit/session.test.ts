@@ -249,6 +249,116 @@ describe("a drag", () => {
   });
 });
 
+describe("a proposal", () => {
+  it("is previewed, and saved as one edit only when it is kept", async () => {
+    expect(t.session.offerTo("gable roof", parts("a", plan(7)))).toBe(true);
+    await t.previews[0]!.answer(raised("a", 7));
+    expect(t.session.phase.value).toBe("offered");
+    expect(t.edits).toHaveLength(0);
+    expect(t.kept()).toBeNull(); // a reload discards it
+    expect(t.session.keepOffer()).toBe(true);
+    await turn();
+    expect(t.edits.map((e) => e.what)).toEqual(["gable roof"]);
+    await t.edits[0]!.answer(applied("a", 2, 7));
+    expect(t.session.phase.value).toBe("idle");
+    expect(t.session.offered).toBe(false);
+  });
+
+  it("is replaced by the next one, also of other buildings", async () => {
+    t.session.offerTo("gable roofs", [...parts("a", plan(7)), ...parts("b", plan(8))]);
+    await t.previews[0]!.answer({ buildings: [...raised("a", 7).buildings, ...raised("b", 8).buildings] });
+    t.session.offerTo("hip roof", parts("b", plan(9)));
+    expect(t.draft.value?.changes.map((c) => c.building)).toEqual(["b"]);
+    expect([...t.draft.value!.raised.keys()]).toEqual(["b"]); // what is drawn stays until the answer
+    expect(gutterOf(t.session.partsBefore("b")[0]!.plan)).toBe(5);
+    t.session.keepOffer();
+    await t.previews[1]!.answer(raised("b", 9));
+    expect(t.edits.map((e) => e.what)).toEqual(["hip roof"]);
+  });
+
+  it("is taken back by Esc, by an undo and by an edit of another building", async () => {
+    t.session.offerTo("gable roof", parts("a", plan(7)));
+    expect(t.session.cancel()).toBe(true);
+    expect(t.draft.value).toBeNull();
+    t.session.offerTo("gable roof", parts("a", plan(7)));
+    t.draft.value = null;
+    expect(t.session.phase.value).toBe("idle");
+    t.session.offerTo("gable roof", parts("a", plan(7)));
+    expect(t.session.begin(["b"])).toBe(true);
+    expect(t.draft.value).toBeNull();
+    expect(t.session.active).toBe(true);
+    expect(t.session.offered).toBe(false);
+    expect(t.said).toHaveLength(0);
+    expect(t.edits).toHaveLength(0);
+  });
+
+  it("is part of an edit that builds on it, and is there again if that is cancelled", async () => {
+    t.session.offerTo("gable roof", parts("a", plan(7)));
+    await t.previews[0]!.answer(raised("a", 7));
+    expect(t.session.begin(["a"])).toBe(true);
+    t.session.change("gutter", parts("a", plan(8)));
+    t.session.cancel();
+    expect(t.session.phase.value).toBe("offered");
+    expect(gutterOf(t.draft.value?.changes[0]?.parts[0]?.plan)).toBe(7);
+    t.session.propose("gutter", parts("a", plan(8)));
+    await t.previews.at(-1)!.answer(raised("a", 8));
+    await turn();
+    if (!t.edits.length) await t.previews.at(-1)!.answer(raised("a", 8));
+    expect(t.edits.map((e) => e.what)).toEqual(["gable roof, gutter"]);
+  });
+
+  it("that is kept after its preview said that it is above the scan is saved, before that it is a question", async () => {
+    const above = raised("a", 9);
+    above.buildings[0]!.diagnostics = [{ severity: "warning", code: "edit-above", message: "it is 5.00 m above", subject: "a-1" }];
+    t.session.offerTo("gable roof", parts("a", plan(9)));
+    t.session.keepOffer();
+    await t.previews[0]!.answer(above);
+    expect(t.session.phase.value).toBe("held");
+    t.session.cancel();
+    t.session.offerTo("gable roof", parts("a", plan(9)));
+    await t.previews[1]!.answer(above);
+    expect(t.session.doubts.map((d) => d.code)).toEqual(["edit-above"]);
+    t.session.keepOffer();
+    await turn();
+    expect(t.edits).toHaveLength(1);
+  });
+
+  it("is taken back where its building was changed meanwhile, by a redo", async () => {
+    t.session.offerTo("gable roof", parts("a", plan(7)));
+    await t.previews[0]!.answer(raised("a", 7));
+    t.run.value = { ...t.run.value!, buildings: new Map([["a", building("a", 1, 6)], ["b", building("b", 5, 6)]]) };
+    expect(t.session.offered).toBe(true);
+    t.run.value = { ...t.run.value!, buildings: new Map([["a", building("a", 2, 6)]]) };
+    expect(t.session.offered).toBe(false);
+    expect(t.draft.value).toBeNull();
+  });
+
+  it("stays while an edit of the same building is being saved", async () => {
+    t.session.propose("gutter", parts("a", plan(7)));
+    await t.previews[0]!.answer(raised("a", 7));
+    expect(t.edits).toHaveLength(1);
+    expect(t.session.offerTo("gable roof", parts("a", plan(8)))).toBe(true);
+    await t.edits[0]!.answer(applied("a", 2, 7));
+    expect(t.session.offered).toBe(true);
+    expect(gutterOf(t.session.partsBefore("a")[0]!.plan)).toBe(7);
+    await t.previews[1]!.answer(raised("a", 8));
+    t.session.keepOffer();
+    await turn();
+    expect(t.edits[1]?.changes[0]?.revision).toBe(2);
+  });
+
+  it("on a held draft goes back to it", async () => {
+    t.session.propose("wall", parts("a", plan(9)));
+    await t.previews[0]!.answer(raised("a", 9, false));
+    t.session.offerTo("gable roof", parts("a", plan(7)));
+    expect(gutterOf(t.session.partsBefore("a")[0]!.plan)).toBe(9);
+    t.session.discardOffer();
+    expect(gutterOf(t.draft.value?.changes[0]?.parts[0]?.plan)).toBe(9);
+    expect(t.session.offered).toBe(false);
+    expect(t.session.active).toBe(false);
+  });
+});
+
 describe("an invalid draft", () => {
   const hold = async () => {
     t.session.begin(["a"]);

@@ -1,5 +1,6 @@
-// A draft: changed plans are previewed while dragging, saved on release if they are valid, and held back if not. The page and
-// the calls of the server are passed in. There is one preview at a time; then the newest plans are next.
+// A draft: changed plans are previewed while dragging, saved on release if they are valid, and held back if not. A proposal is a
+// draft that is only saved when it is kept. The page and the calls of the server are passed in. There is one preview at a time;
+// then the newest plans are next.
 import { signal } from "@preact/signals";
 import type * as api from "../api/types";
 import type { Draft, OpenRun } from "../state";
@@ -37,8 +38,8 @@ export interface Desk {
   shown(pointer: number): void;
 }
 
-/** changing: the pointer is down. checking: released, waiting for the preview. saving: sent. held: not saved, see `reason`. */
-export type Phase = "idle" | "changing" | "checking" | "saving" | "held";
+/** changing: the pointer is down. offered: a proposal is shown. checking: released, waiting for the preview. saving: sent. held: not saved, see `reason`. */
+export type Phase = "idle" | "changing" | "offered" | "checking" | "saving" | "held";
 
 export interface Parts {
   building: string;
@@ -73,7 +74,10 @@ export class EditSession {
   private touched = new Set<string>(); // buildings changed since the last edit was sent
   private writing: { run: string; undo: boolean } | null = null;
   private putting = false;
+  private taking = false; // of the answer to an edit of this session
   private lost: string[] = []; // parts that the gesture removes
+  private offer: { what: string; before: Draft | null } | null = null; // the proposal that is shown
+  private interrupted: { what: string; before: Draft | null } | null = null; // that a gesture builds on
 
   constructor(
     private readonly calls: Calls,
@@ -84,6 +88,11 @@ export class EditSession {
       if (had && !draft && !this.putting) this.dropped();
       had = draft;
     });
+    // A redo, or another edit of the same building: what is shown was made for another state of it.
+    desk.run.subscribe((run) => {
+      const changes = this.offer && !this.taking && desk.draft.value?.changes;
+      if (changes && changes.some((c) => run?.buildings.get(c.building)?.revision !== c.revision)) this.cancel();
+    });
   }
 
   /** Whether a gesture is in progress. It also ends when the draft is discarded. */
@@ -91,12 +100,77 @@ export class EditSession {
     return this.open;
   }
 
-  /** Starts a gesture on some buildings. False, with a message, while there is an unsaved draft of other buildings. */
+  /** Whether a proposal is shown. */
+  get offered() {
+    return this.offer !== null;
+  }
+
+  /** The parts of a building without the proposal that is shown. */
+  partsBefore(building: string): api.NamedPlan[] {
+    const draft = this.offer ? this.offer.before : this.desk.draft.value;
+    const drafted = draft?.changes.find((c) => c.building === building)?.parts;
+    return drafted ?? this.desk.run.value?.buildings.get(building)?.parts ?? [];
+  }
+
+  /** Shows a complete change without saving it, in place of the proposal before it. False where begin() is. */
+  offerTo(what: string, changes: Parts[]): boolean {
+    if (this.open && !this.offer) return false; // something is being dragged
+    const shown = this.desk.draft.value?.raised;
+    if (this.offer) {
+      this.open = false;
+      this.stopAsking();
+      this.put(this.offer.before);
+      this.offer = null;
+    }
+    if (!this.begin(changes.map((c) => c.building))) {
+      this.settle();
+      return false;
+    }
+    // What is drawn stays until the new preview is there.
+    const draft = this.desk.draft.value;
+    const raised = new Map(draft?.raised);
+    for (const { building } of changes) if (shown?.has(building)) raised.set(building, shown.get(building)!);
+    this.offer = { what, before: this.before };
+    this.reason.value = null;
+    this.change(what, changes, 0, raised);
+    return true;
+  }
+
+  /** Saves the proposal that is shown. What its preview says of the scan is an answer to the question whether to save it. */
+  keepOffer(): boolean {
+    const draft = this.desk.draft.value;
+    if (!this.offer || !draft) return false;
+    this.offer = null;
+    this.sure = this.answered === this.version && !draft.invalid;
+    this.commit();
+    return true;
+  }
+
+  /** Takes the proposal back that is shown. */
+  discardOffer() {
+    if (this.offer) this.cancel();
+  }
+
+  /** What the preview of the draft says that is worse for the scan. */
+  get doubts(): api.Diagnostic[] {
+    const draft = this.desk.draft.value;
+    return draft && !draft.pending ? doubtsOf(draft) : [];
+  }
+
+  /** Starts a gesture on some buildings. False, with a message, while there is an unsaved draft of other buildings. A gesture on
+   *  a building with a proposal builds on it; a proposal for others is discarded. */
   begin(buildings: string[]): boolean {
     if (!this.desk.run.value) return false;
+    if (this.offer) {
+      if (this.desk.draft.value?.changes.some((c) => buildings.includes(c.building))) {
+        this.interrupted = this.offer;
+        this.offer = null;
+        this.open = false;
+      } else this.cancel();
+    }
     const draft = this.desk.draft.value;
     if (this.open) return true;
-    if (draft && !this.writing && !draft.changes.some((c) => buildings.includes(c.building))) {
+    if (draft && !this.interrupted && !this.writing && !draft.changes.some((c) => buildings.includes(c.building))) {
       const held = draft.changes.map((c) => c.building).join(", ");
       this.desk.showMessage(
         warning("edit-held", `the change of ${held} is not saved yet; correct it, or discard it with Esc`, held),
@@ -111,7 +185,7 @@ export class EditSession {
   }
 
   /** Sets the new parts: all parts of each changed building. `pointer` is the time of the event, ms. */
-  change(what: string, changes: Parts[], pointer = 0) {
+  change(what: string, changes: Parts[], pointer = 0, raised = this.desk.draft.value?.raised) {
     const run = this.desk.run.value;
     if (!this.open || !run) return;
     const draft = this.desk.draft.value;
@@ -126,25 +200,26 @@ export class EditSession {
     ++this.version;
     this.pointer = pointer;
     this.put({
-      what,
+      what: this.interrupted ? `${this.interrupted.what}, ${what}` : what,
       changes: [...others, ...named],
-      raised: draft?.raised ?? new Map(),
+      raised: raised ?? new Map(),
       pending: true,
       invalid: draft?.invalid ?? false,
     });
-    this.phase.value = "changing";
+    this.phase.value = this.offer ? "offered" : "changing";
     this.pump();
   }
 
   /** Ends the gesture: valid plans are saved, others are held. */
   commit() {
-    if (!this.open) return;
+    if (!this.open || this.offer) return;
     this.open = false;
     const draft = this.desk.draft.value;
     if (!draft || draft.changes === this.before?.changes) {
       this.settle();
       return;
     }
+    this.interrupted = null;
     if (this.unchanged(draft)) {
       this.drop();
       return;
@@ -167,6 +242,7 @@ export class EditSession {
     if (this.open || (this.desk.draft.value && !this.writing)) ++this.cancelled.value;
     if (this.open) {
       this.open = false;
+      this.offer = null;
       this.stopAsking();
       ++this.version;
       this.put(this.before && { ...this.before, pending: true });
@@ -337,11 +413,14 @@ export class EditSession {
   private written(run: string, applied: api.Applied) {
     this.desk.keep(null);
     const draft = this.desk.draft.value;
+    this.taking = true;
     this.desk.take(run, applied);
+    this.taking = false;
     if (!draft || this.desk.run.value?.id !== run) return;
     // A gesture that began meanwhile is based on the plans that were just saved.
     const rest = draft.changes.filter((c) => this.touched.has(c.building));
     this.before = null;
+    for (const offer of [this.offer, this.interrupted]) if (offer) offer.before = null;
     this.wasReleased = false;
     if (rest.length === 0) {
       const open = this.open;
@@ -406,6 +485,15 @@ export class EditSession {
       this.reset();
       return;
     }
+    if (this.interrupted) {
+      this.offer = this.interrupted;
+      this.before = this.interrupted.before;
+      this.interrupted = null;
+      this.open = true;
+      this.phase.value = "offered";
+      this.pump();
+      return;
+    }
     this.released = this.wasReleased;
     this.phase.value = this.writing ? "saving" : this.released ? "checking" : "held";
     this.pump();
@@ -427,6 +515,8 @@ export class EditSession {
     this.stopAsking();
     this.open = false;
     this.released = false;
+    this.offer = null;
+    this.interrupted = null;
     this.before = null;
     this.touched.clear();
     this.answered = ++this.version;
@@ -444,9 +534,12 @@ export class EditSession {
   }
 }
 
-/** What the preview says that is no error: that the change is worse for the scan. */
+/** What the preview says that is no error: that the change is worse for the scan. Of several buildings it names each. */
 const doubtsOf = (draft: Draft): api.Diagnostic[] =>
-  draft.changes.flatMap((c) => draft.raised.get(c.building)?.diagnostics.filter((d) => d.code === "edit-above" || d.code === "edit-error") ?? []);
+  draft.changes.flatMap((c) => {
+    const all = draft.raised.get(c.building)?.diagnostics.filter((d) => d.code === "edit-above" || d.code === "edit-error") ?? [];
+    return draft.changes.length > 1 ? all.map((d) => ({ ...d, subject: d.subject || c.building })) : all;
+  });
 
 function firstError(buildings: api.RaisedBuilding[]): api.Diagnostic | null {
   const all = buildings.flatMap((b) => [...b.parts.flatMap((p) => p.diagnostics), ...b.diagnostics]);

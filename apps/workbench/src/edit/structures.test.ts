@@ -5,7 +5,7 @@ import { house } from "./house_for_tests";
 import { changeProfiles, edgesOf, insertVertex, moveAll, moveEdge, moveVertex, planArea, setProfile } from "./plan";
 import { gutterOf, slopes, withGutter, type Profile } from "./profile";
 import { shaped } from "./shapes";
-import { bare, dormerRoof, faceOver, removed, replaced, structureAt, structuresOf, withDormer, withStructure } from "./structures";
+import { bare, dormerBox, dormerRoof, faceOver, nearestDormer, removed, replaced, structureAt, structuresOf, withDormer, withDormerBox, withStructure } from "./structures";
 
 // A dormer of Delft as `mansard reconstruct` wrote it (building b31bcc293 of data/delft): the plan of the roof, rounded by nothing,
 // and what the kernel left of its hole. The house is drawn around it.
@@ -227,6 +227,30 @@ describe("a dormer", () => {
     expect(planArea(planOf(beside.parts, "h-2"))).toBeCloseTo(1.2 * 1.4);
     expect(withDormer("h", bareHouse, "h-1", geometry(), [5, 3.9]), "at the ridge").toBeNull();
     expect(withDormer("h", bareHouse, "h-1", geometry(), [20, 1]), "beside the house").toBeNull();
+  });
+});
+
+describe("a dormer that is placed roughly", () => {
+  const bareHouse = [{ id: "h-1", plan: house() }];
+  it("is added at the nearest place where it fits", () => {
+    const here = nearestDormer("h", bareHouse, "h-1", geometry(), [5, 1])!;
+    expect(here.moved).toBe(0);
+    const ridge = nearestDormer("h", bareHouse, "h-1", geometry(), [5, 3.9])!;
+    expect(ridge.moved).toBeGreaterThan(0);
+    expect(ridge.moved).toBeLessThan(1.5);
+    expect(structureAt(ridge.parts, "h-2")?.dormer).toBeTruthy();
+    expect(nearestDormer("h", bareHouse, "h-1", geometry(), [30, 1])).toBeNull();
+  });
+  it("has another place and other measures, and fills its hole", () => {
+    const box = dormerBox(parts(), "h-2")!;
+    expect(box).toMatchObject({ left: 4, right: 6, front: 1, eaves: 8.5 });
+    const now = withDormerBox(parts(), "h-2", { left: 3, right: 5.5, front: 0.8, eaves: 8.3 })!;
+    expect(fits(now)).toBeCloseTo(8.3, 9);
+    expect(dormerBox(now, "h-2")).toMatchObject({ left: 3, right: 5.5 });
+    expect(withDormerBox(parts(), "h-2", { ...box, right: box.left + 0.1 }), "too narrow").toBeNull();
+    expect(withDormerBox(parts(), "h-2", { ...box, eaves: 6.5 }), "below its slope").toBeNull();
+    expect(withDormerBox(parts(), "h-2", { ...box, eaves: 12 }), "beyond the ridge").toBeNull();
+    expect(dormerBox(parts(), "h-1")).toBeNull();
   });
 });
 

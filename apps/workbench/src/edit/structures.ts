@@ -4,7 +4,7 @@
 import type { Geometry, NamedPlan, Plan, PlanRing, Point2 } from "../api/types";
 import { after, clean, oriented, ringOf } from "./plan";
 import { shaped, type Shape } from "./shapes";
-import { gutterOf, slopes, slopeTo, withGutter, type Profile } from "./profile";
+import { gutterOf, lastRoof, slopes, slopeTo, withGutter, withSlope, type Profile } from "./profile";
 import { cross, distance, dot, middle, minus, nearestOn, plus, times, turnedLeft, unit } from "./vector";
 
 /** Corners of a hole and of the part in it agree to within this, metres: extruding rounds each for itself. */
@@ -49,7 +49,7 @@ export interface Structure {
   dormer: Slope | null; // the slope that a dormer is on
 }
 /** Corners of a dormer in directions of its slope, metres. */
-interface Box {
+export interface Box {
   left: number;
   right: number;
   front: number;
@@ -406,6 +406,31 @@ export function dormerRoof(parts: readonly NamedPlan[], id: string, shape: Shape
   return shaped(plan, shape, (i) => i === (first + 2) % 4, { eaves: eavesOf(plan) }, sides);
 }
 
+/** Where a dormer is on its slope; null for other parts. */
+export function dormerBox(parts: readonly NamedPlan[], id: string): Box | null {
+  const slope = structureAt(parts, id)?.dormer;
+  const plan = parts.find((p) => p.id === id)?.plan;
+  return slope && plan ? boxOf(plan, slope) : null;
+}
+
+/** The building with a dormer at another place of its slope, and with other measures; null where that is not on it.
+ *  `rise`: of its own slopes, per run; null: as it is. */
+export function withDormerBox(parts: readonly NamedPlan[], id: string, box: Box, rise: number | null = null): NamedPlan[] | null {
+  const own = structureAt(parts, id);
+  const slope = own?.dormer;
+  const plan = parts.find((p) => p.id === id)?.plan;
+  const first = slope && plan ? frontOf(plan, slope) : null;
+  if (!own || !slope || !plan || first === null) return null;
+  const host = parts.find((p) => p.id === own.host)!.plan;
+  const difference = plan.base - host.base;
+  if (box.right - box.left < narrowest || box.eaves < heightOf(slope, box.front) - difference + lowest) return null;
+  const risen = rise === null ? plan : { ...plan, profiles: plan.profiles.map((p) => (slopes(p).length ? withSlope(p, lastRoof(p), rise) : p)) };
+  const made = built(risen, first, box, slope, difference);
+  const told = standsOn(bare(parts, own.host), slope, plan.outer.points);
+  if (told && !standsOn(bare(parts, own.host), slope, made.plan.outer.points)) return null;
+  return put(parts, new Map([[id, made.plan], [own.host, withHole(host, own.ring, made.hole, made.plan.cap, made.back)]]));
+}
+
 /** A plan without the holes that structures fill. */
 export function bare(parts: readonly NamedPlan[], id: string): Plan {
   const plan = parts.find((p) => p.id === id)!.plan;
@@ -453,6 +478,26 @@ export function faceOver(g: Geometry, [x, y]: Point2): { ring: number | null; ed
     if (!best || z > best.z) best = { ring: face.ring, edge: face.edge, z };
   }
   return best;
+}
+
+/** A new dormer with its front at a point, or at the nearest one within 3 m where it fits. `moved`: how far that is
+ *  from the point, metres. Null if there is none. `geometry` is the host's. */
+export function nearestDormer(
+  building: string,
+  parts: readonly NamedPlan[],
+  host: string,
+  geometry: Geometry,
+  at: Point2,
+): { id: string; parts: NamedPlan[]; moved: number } | null {
+  const [step, most] = [0.25, 12];
+  const offsets: Point2[] = [];
+  for (let i = -most; i <= most; ++i) for (let j = -most; j <= most; ++j) offsets.push([i * step, j * step]);
+  const near = offsets.filter((o) => Math.hypot(...o) <= most * step).sort((a, b) => Math.hypot(...a) - Math.hypot(...b));
+  for (const offset of near) {
+    const made = withDormer(building, parts, host, geometry, plus(at, offset));
+    if (made) return { ...made, moved: Math.hypot(...offset) };
+  }
+  return null;
 }
 
 /** A new dormer with its front at a point, as large as usual or as there is room for. Null if the roof has no slope there, or

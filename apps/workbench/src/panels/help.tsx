@@ -29,7 +29,9 @@ const pointer: [what: string, does: string][] = [
   ["right drag, Ctrl drag", "move"],
   ["wheel, pinch", "zoom at the pointer"],
   ["click", "select a building, part and edge"],
-  ["Shift click", "select another part, to merge them"],
+  ["Shift click", "select another part: to merge them, or to change all of them"],
+  ["drag a handle of the roof", "move a ridge, an eave or a face"],
+  ["arrows on a roof shape", "show the next shape; Enter keeps it, Esc goes back"],
   ["arrows, Shift arrows, + −", "move, rotate and zoom while the view has the focus"],
 ];
 

@@ -42,7 +42,15 @@ const sections: [title: string, text: string][] = [
   ],
   [
     "Edit",
-    "Select a part and drag its corners, edges and profile points, or type numbers. Flat, Gable, Hip and Mansard replace the roof of a part; walls to neighbours stay. Changes are saved when you release the mouse. Invalid plans are shown in red and are not saved. Undo has no limit.",
+    "Select a part and drag its corners, edges and profile points, or type numbers. Changes are saved when you release the mouse. Invalid plans are shown in red and are not saved. Undo has no limit.",
+  ],
+  [
+    "Roofs",
+    "Flat to Mansard show the best roof of that kind for the scan, with the error before and after. Keep or Enter saves it, Discard or Esc goes back; nothing is saved before. Fit moves the roof as it is to the scan, Fit plane the plane of the selected edge alone, and on a dormer its place and size. The list beside them extends this to the selected parts or to the whole row.",
+  ],
+  [
+    "Handles",
+    "The roof of the selected part has handles in the view. A ridge goes up and down (the pitches change, the eaves stay) or sideways; an eave takes its roof along; a face moves along its normal. Arrow keys move the handle that has the focus. A value that is typed goes to all selected parts.",
   ],
   [
     "Pictures, links and exports",

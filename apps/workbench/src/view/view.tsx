@@ -14,6 +14,7 @@ import { nameOf } from "../panels/words";
 import { viewer } from "./current";
 import type { RawClimbs } from "./highlight";
 import { Attribution, Furniture } from "./furniture";
+import { Handles } from "../edit/handles_layer";
 import { caseDrawn } from "../review/pace";
 import { current, decisions, queue, shownCase } from "../review/review";
 import { isMarked, nextOpen } from "../review/queue";
@@ -46,6 +47,7 @@ export interface ViewHandle {
   idle(): Promise<void>;
 }
 const failure = signal("");
+const images = signal(0); // that were drawn
 
 export const handle: ViewHandle = {
   project: (building) => viewer.value?.project(building) ?? null,
@@ -306,6 +308,7 @@ export function View() {
           drawn: (azimuth, metresPerPixel) => {
             measureDrawn();
             caseDrawn();
+            ++images.value;
             const was = state.compass.peek();
             if (was?.azimuth !== azimuth || was.metresPerPixel !== metresPerPixel)
               state.compass.value = { azimuth, metresPerPixel };
@@ -349,6 +352,7 @@ export function View() {
         aria-label="3D view. Arrow keys move the camera, with Shift they rotate it, plus and minus zoom. Buildings can also be selected in the list of buildings."
       />
       {failure.value && <p class="view-failure">{failure.value}</p>}
+      <Handles images={images} />
       <Toolbar />
       {state.layersOpen.value && <LayersPopover />}
       <div class="view-corner">

@@ -677,6 +677,22 @@ export class Viewer {
     return { x: box.left + ((p.x + 1) / 2) * this.paneWidth, y: box.top + ((1 - p.y) / 2) * this.height };
   }
 
+  /** Where points are in the left pane, in pixels from its upper left corner; null where they are not in it. */
+  inView(points: readonly Vector[]): ([number, number] | null)[] {
+    this.aim();
+    const p = new THREE.Vector3();
+    return points.map((at) => {
+      p.set(...(at.map((x, i) => x - this.centre[i]!) as Vector)).project(this.eye);
+      if (p.z > 1 || Math.abs(p.x) > 1 || Math.abs(p.y) > 1) return null;
+      return [((p.x + 1) / 2) * this.paneWidth, ((1 - p.y) / 2) * this.height];
+    });
+  }
+  /** Where the camera is, in the frame of the scene. */
+  get eyeAt(): Vector {
+    this.aim();
+    return this.eye.position.toArray().map((x, i) => x + this.centre[i]!) as Vector;
+  }
+
   /** The pose of the camera, in the frame of the scene. */
   get seenFrom(): Pose {
     return { ...this.goal, target: this.goal.target.map((t, i) => t + this.centre[i]!) as Vector };
