@@ -259,7 +259,8 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
   base::parallel_for(starts.size(), [&](std::size_t i) { starts[i] = settle(std::move(starts[i]), judge); });
   for (auto& judged : starts)
     if (cheaper(judged.cost, best.cost, judge.options().same_cost)) best = std::move(judged);
-  if (search == Search::quick || best.cost > options.hopeless * worth) return best;
+  if (best.cost > options.hopeless * worth) return best;
+  if (search == Search::quick) return judge.wrong(best) < faces_apart ? best : turn(std::move(best), judge);
   for (std::int64_t round = 0; round < options.rounds && judge.wrong(best) >= faces_apart; ++round) {
     const double cost = best.cost;
     best = settle(descend(std::move(best), draft, judge), judge);

@@ -113,21 +113,54 @@ auto slope_of(const Group& group, const Judged& judged, const Site& site, const 
   return slope;
 }
 
+/// The roof's own planes where they go on beyond their faces: samples off the roof that lie on one. An obstacle in the
+/// outline, the wedge of a wing, keeps the plane of one side from what is behind it.
+auto continued_slopes(const Judged& judged, const Site& site, const Options& options) -> std::vector<Slope> {
+  std::vector<std::size_t> off;
+  for (std::size_t i = 0; i < site.cells.size(); ++i)
+    if (std::abs(judged.view.z_of(site, i) - site.z[i]) > options.lines.robust) off.push_back(i);
+  std::vector<Slope> out;
+  if (std::ssize(off) < options.lines.min_samples) return out;
+  for (const auto& face : judged.sketch.faces) {
+    if (face.kind != model::FaceKind::side || face.normal.z <= wall_normal) continue;
+    const Point3 at = judged.sketch.vertices[face.loops.front().front()];
+    Slope slope{{at.x, at.y, at.z - site.base}, {-face.normal.x / face.normal.z, -face.normal.y / face.normal.z}, 0};
+    Point2 sum;
+    double count = 0;
+    for (const std::size_t i : off) {
+      if (std::abs(slope.at(site.places[i]) - site.z[i]) > options.lines.robust) continue;
+      slope.gain += site.weight[i] * loss(judged.view.z_of(site, i) - site.z[i], options.robust);
+      sum = sum + site.places[i];
+      ++count;
+    }
+    if (count < static_cast<double>(options.lines.min_samples)) continue;
+    slope.gain *= site.sample_area;
+    const Point2 middle = (1 / count) * sum;
+    slope.middle = {middle.x, middle.y, slope.at(middle)};
+    out.push_back(slope);
+  }
+  return out;
+}
+
 /// The plan with the plane from one of its corners, and the walls on both sides of that, as far as the plane rises from
 /// them, up to it.
 auto with_slope(const Plan& plan, const Slope& slope, std::size_t corner, const Options& options)
     -> std::optional<Plan> {
   constexpr double most_turn = 0.34;  // the sine of 20°: what is more oblique is no side of a roof, and mostly noise
-  constexpr double from_wall = 0.7;   // the cosine of 45°: a roof rises from a wall, or along it
+  constexpr double same_direction = 0.035;  // the sine of 2°
+  constexpr double from_wall = 0.7;         // the cosine of 45°: a roof rises from a wall, or along it
   const double height = slope.at(plan.outer.points[corner]), steep = length(slope.rise);
   if (height < options.forms.min_height) return std::nullopt;
   const Point2 up = (1 / steep) * slope.rise, along{up.y, -up.x};
   const auto& points = plan.outer.points;
-  const auto turn_from = [&](std::size_t edge) {
-    return std::abs(cross(along, normalised(points[(edge + 1) % points.size()] - points[edge])));
+  const auto direction = [&](std::size_t edge) {
+    return normalised(points[(edge + 1) % points.size()] - points[edge]);
   };
-  if (std::min(turn_from(corner), turn_from((corner + points.size() - 1) % points.size())) > most_turn)
-    return std::nullopt;
+  const auto turn_from = [&](std::size_t edge) { return std::abs(cross(along, direction(edge))); };
+  bool is_known = std::min(turn_from(corner), turn_from((corner + points.size() - 1) % points.size())) <= most_turn;
+  for (std::size_t edge = 0; edge < points.size() && !is_known; ++edge)
+    is_known = std::min(turn_from(edge), std::abs(dot(along, direction(edge)))) <= same_direction;
+  if (!is_known) return std::nullopt;
   const auto own = static_cast<std::uint32_t>(plan.profiles.size());
   auto ring = extrude::with_corner_edge(plan.outer, corner, along, own);
   if (!ring) return std::nullopt;
@@ -156,6 +189,8 @@ auto turned_roofs(const Judged& judged, const Judge& judge) -> std::vector<Plan>
   for (const Group& group : groups_of(judged, site, options))
     if (const auto slope = slope_of(group, judged, site, options); slope && slope->gain > options.face_price)
       slopes.emplace_back(*slope, xy(slope->middle));
+  for (const Slope& slope : continued_slopes(judged, site, options))
+    if (slope.gain > options.face_price) slopes.emplace_back(slope, xy(slope.middle));
   rank(
       slopes, [](const auto& one) { return -one.first.gain; }, options.same_cost);
   if (slopes.size() > most_slopes) slopes.resize(most_slopes);

@@ -101,8 +101,9 @@ auto Work::split(const Piece& piece) const -> std::vector<Piece> {
   const double least_gain =
       std::max(options_.part_price + fewest_faces * options_.face_price, worth_a_cut * piece.roof.misfit);
   if (run_.cancelled() || judge_of(piece.site).reducible(piece.roof) < least_gain) return {};
-  auto pieces = cut_within(piece, least_gain, piece.roof.cost);
-  return pieces.empty() ? into_wings(piece, least_gain) : pieces;
+  auto proposals = cuts_of(piece, least_gain);
+  std::ranges::move(wings_of(piece, least_gain), std::back_inserter(proposals));
+  return cheapest(piece, proposals, piece.roof.cost);
 }
 
 auto Work::touch(const Piece& a, const Piece& b) const -> bool {
@@ -136,6 +137,10 @@ auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> 
 
 /// Of the proposed cuts the one whose pieces cost least, if that is less than they are worth.
 auto Work::cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece> {
+  return cheapest(piece, cuts_of(piece, least_gain), worth);
+}
+
+auto Work::cuts_of(const Piece& piece, double least_gain) const -> std::vector<Proposal> {
   account_->add(work_of_cut * piece.site.cells.size());
   Heights model = piece.site.measured, measured = piece.site.measured;
   model.z = piece.roof.view.z;
@@ -144,7 +149,7 @@ auto Work::cut_within(const Piece& piece, double least_gain, double worth) const
     if (model.z[cell] > ceiling) measured.z[cell] = ceiling;
   OnPlanes points;
   if (piece.site.of_points) points = {piece.site.places, piece.site.plane_of};
-  return cheapest(piece, propose(piece.site.polygon, measured, model, least_gain, options_, points), worth);
+  return propose(piece.site.polygon, measured, model, least_gain, options_, points);
 }
 
 auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, double worth) const
@@ -176,8 +181,8 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
   return {};
 }
 
-/// The same of the cuts between wings, those with most misfit about them.
-auto Work::into_wings(const Piece& piece, double least_gain) const -> std::vector<Piece> {
+/// The cuts between wings, those with most misfit about them.
+auto Work::wings_of(const Piece& piece, double least_gain) const -> std::vector<Proposal> {
   struct Promising {
     WingLine line;
     double about = 0;  // m²·m²
@@ -197,7 +202,7 @@ auto Work::into_wings(const Piece& piece, double least_gain) const -> std::vecto
       wings.push_back({std::move(wing), about, 0, "a wing", true});
   }
   if (wings.size() > most) wings.resize(most);
-  return cheapest(piece, wings, piece.roof.cost);
+  return wings;
 }
 
 /// m²·m²: squared differences of the looks around a place.

@@ -107,7 +107,8 @@ class Work {
   [[nodiscard]] auto cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece>;
   [[nodiscard]] auto cheapest(const Piece& piece, const std::vector<Proposal>& proposals, double worth) const
       -> std::vector<Piece>;
-  [[nodiscard]] auto into_wings(const Piece& piece, double least_gain) const -> std::vector<Piece>;
+  [[nodiscard]] auto cuts_of(const Piece& piece, double least_gain) const -> std::vector<Proposal>;
+  [[nodiscard]] auto wings_of(const Piece& piece, double least_gain) const -> std::vector<Proposal>;
   [[nodiscard]] auto misfit_about(const Piece& piece, geometry::Point2 place, double within) const -> double;
   [[nodiscard]] auto misfit_near(const Piece& piece, const geometry::Polygon& other) const -> double;
   [[nodiscard]] auto cost_of_faces(const geometry::Polygon& polygon) const -> double;
