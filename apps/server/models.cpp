@@ -32,6 +32,10 @@ auto Models::view() const -> std::shared_ptr<const View> {
   return view_;
 }
 
+auto Models::parts_of(std::size_t building, const Seen& seen) const -> edit::Parts {
+  return seen.parts ? seen.parts : first_->plans(building);
+}
+
 auto Models::extent() const -> geometry::Box2 {
   geometry::Box2 box;
   for (const auto& building : view()->buildings) box.include(building->box);
@@ -69,12 +73,13 @@ auto Models::raised(const edit::Change& change, std::size_t at, const std::vecto
     if (b == at) continue;
     const auto& other = *view.buildings[b];
     const auto changed = std::ranges::find(together, other.id, &edit::Change::building);
-    const auto& parts = changed == together.end() ? other.parts : changed->parts;
-    if (!touch(box, changed == together.end() ? other.box : box_of(parts))) continue;
-    for (const auto& part : parts) neighbours.push_back(part.plan);
+    if (!touch(box, changed == together.end() ? other.box : box_of(changed->parts))) continue;
+    const auto own = changed == together.end() ? parts_of(b, other) : nullptr;
+    for (const auto& part : own ? *own : changed->parts) neighbours.push_back(part.plan);
   }
   const auto mesh = scene == nullptr ? nullptr : scene->rays_of(change.building);
-  edit::Site site{neighbours, view.buildings[at]->parts, mesh.get()};
+  const auto before = parts_of(at, *view.buildings[at]);
+  edit::Site site{neighbours, *before, mesh.get()};
   if (member != nullptr) {
     site.footprint = member->polygons;
     site.ground = member->ground;
@@ -102,9 +107,9 @@ auto Models::plan_of(const PartName& name) const -> base::Result<model::Plan> {
   const auto now = view();
   const auto at = index_.find(name.building);
   if (at == index_.end()) return no_building(name.building);
-  const auto& parts = now->buildings[at->second]->parts;
-  const auto part = std::ranges::find(parts, name.part, &edit::NamedPlan::id);
-  if (part == parts.end())
+  const auto parts = parts_of(at->second, *now->buildings[at->second]);
+  const auto part = std::ranges::find(*parts, name.part, &edit::NamedPlan::id);
+  if (part == parts->end())
     return base::error("edit-part", "the building has no part '" + name.part + "'", name.building);
   return part->plan;
 }
@@ -122,7 +127,7 @@ auto Models::split(const SplitRequest& request) const -> base::Result<std::strin
   const auto at = index_.find(request.at.building);
   if (at == index_.end()) return no_building(request.at.building);
   const auto& building = *now->buildings[at->second];
-  auto parts = edit::split(building.id, building.parts, request.at.part, request.line);
+  auto parts = edit::split(building.id, *parts_of(at->second, building), request.at.part, request.line);
   if (!parts) return parts.error();
   const Json change = json_of(edit::Change{building.id, building.revision, std::move(*parts)});
   return text_of({{"changes", Json::array({change})}});
@@ -142,8 +147,9 @@ auto Models::merge(const MergeRequest& request) const -> base::Result<std::strin
   std::vector<edit::Change> changes;
   for (const auto* name : {&first, &second}) {
     if (!changes.empty() && changes.front().building == name->building) continue;
-    const auto& building = *now->buildings[index_.find(name->building)->second];
-    edit::Change change{building.id, building.revision, building.parts};
+    const auto at = index_.find(name->building)->second;
+    const auto& building = *now->buildings[at];
+    edit::Change change{building.id, building.revision, *parts_of(at, building)};
     if (building.id == second.building)
       std::erase_if(change.parts, [&](const auto& part) { return part.id == second.part; });
     if (building.id == first.building)

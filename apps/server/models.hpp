@@ -16,15 +16,17 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
-#include "apps/server/attributes_aside.hpp"
 #include "apps/server/disk.hpp"
 #include "apps/server/json.hpp"
 #include "apps/server/project.hpp"
 #include "apps/server/requests.hpp"
+#include "apps/server/run_buildings.hpp"
 #include "apps/server/scene.hpp"
 #include "mansard/base/result.hpp"
 #include "mansard/edit/edit.hpp"
@@ -53,7 +55,8 @@ class Models {
 
   /// From the files in the folder of the run. An incomplete last line of the journal is cut off. Fails with
   /// "edit-journal", "server-project", "write-plan-…", "file-…". Cost: every plan is extruded, on all threads; of a
-  /// large run only those of edited buildings.
+  /// large run only those of edited buildings, and its plans stay in their file. All functions of a large
+  /// run may throw Unreadable.
   /// `inputs`: what key_of gives of the scene's. What was measured with the same inputs is not measured again.
   [[nodiscard]] static auto open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene,
                                  const std::string& inputs) -> base::Result<std::shared_ptr<Models>>;
@@ -136,7 +139,7 @@ class Models {
   };
   [[nodiscard]] auto model_now(std::string_view building) const -> std::optional<ModelNow>;
 
-  [[nodiscard]] auto frame() const -> const model::Frame& { return city_.frame; }
+  [[nodiscard]] auto frame() const -> const model::Frame& { return first_->frame(); }
   /// The box of all plans, in the frame; empty if there are none.
   [[nodiscard]] auto extent() const -> geometry::Box2;
   [[nodiscard]] auto options() const -> const pipeline::Options& { return options_; }
@@ -146,7 +149,7 @@ class Models {
   struct Seen {
     std::string id;
     std::uint64_t revision = 0;
-    std::vector<edit::NamedPlan> parts;
+    edit::Parts parts;  ///< null: those of the run, in its file
     geometry::Box2 box;
     bool edited = false;
     bool measured = false;
@@ -164,15 +167,16 @@ class Models {
     std::uint64_t number = 0;  ///< of the state
   };
 
-  Models(model::City city, edit::History history, Journal journal, pipeline::Options options);
-  /// The building of the run with its attributes. Fails as AttributesAside::restore.
-  [[nodiscard]] auto with_attributes(std::size_t building) const -> base::Result<model::Building>;
-  /// Of a large run the attributes alone, of a building and of its parts.
-  [[nodiscard]] auto attributes_of(std::size_t building, model::Building& to) const -> base::Result<void>;
+  Models(std::shared_ptr<const RunBuildings> first, edit::History history, Journal journal, pipeline::Options options);
+  [[nodiscard]] auto parts_of(std::size_t building, const Seen& seen) const -> edit::Parts;
   [[nodiscard]] auto view() const -> std::shared_ptr<const View>;
   [[nodiscard]] auto read_reports(const std::filesystem::path& path) -> base::Result<void>;
   [[nodiscard]] auto raise_all(const OpenScene* scene) -> base::Result<void>;
-  void list_all(const OpenScene* scene);
+  /// `index`: of a run whose plans are in a file; its columns of the report are taken.
+  void take_reports(RunIndex& index);
+  /// `errors` and `boxes`: of buildings that were not edited.
+  void list_all(const OpenScene* scene, const std::vector<std::optional<double>>& errors,
+                const std::vector<geometry::Box2>& boxes);
   /// Of the attributes of buildings, then of parts, then of decisions.
   [[nodiscard]] auto names() const -> std::vector<std::string>;
   /// The building with its models: from the view, or of a large run made now. Those made last are kept.
@@ -180,7 +184,7 @@ class Models {
   [[nodiscard]] auto made_all(const std::vector<std::size_t>& which, const View& view) const
       -> std::vector<std::shared_ptr<const Seen>>;
   /// m² of a part, as the run measured it over its polygon.
-  [[nodiscard]] auto mse_of_run(std::size_t building, std::size_t part) const -> std::optional<double>;
+  [[nodiscard]] auto mse_of_run(const model::Building& building, std::size_t part) const -> std::optional<double>;
   [[nodiscard]] auto known(const edit::Change& change, const View& view) const -> base::Result<std::size_t>;
   [[nodiscard]] auto raised(const edit::Change& change, std::size_t at, const std::vector<edit::Change>& together,
                             const View& view, const OpenScene* scene) const -> edit::RaisedBuilding;
@@ -205,26 +209,22 @@ class Models {
   [[nodiscard]] auto step(base::Result<std::vector<std::string>> (edit::History::*one)(), std::string_view line,
                           const OpenScene* scene) -> base::Result<Changed>;
 
-  model::City city_;  // the plans of the run, without models
+  std::shared_ptr<const RunBuildings> first_;  // before edits
   pipeline::Options options_;
   std::filesystem::path folder_;
   std::string inputs_;                                    // empty: nothing is kept
   std::map<std::string, Measure, std::less<>> measures_;  // as they were kept
-  std::map<std::string, std::size_t, std::less<>> index_;
+  std::unordered_map<std::string_view, std::size_t> index_;
+  std::set<std::string, std::less<>> strings_;  // of reports: most are of many buildings
   struct Report {
-    std::string block, outcome;
-    std::string reasons;  ///< an array of Diagnostic; empty for none
+    const std::string* block = nullptr;
+    const std::string* outcome = nullptr;
+    const std::string* reasons = nullptr;  ///< an array of Diagnostic; empty for none
     double ground = 0, volume = 0;
     std::optional<double> confidence;  ///< probability that the model of the run is right
   };
-  /// What is kept of the attributes of a large run, which are not in `city_`.
-  struct Own {
-    bool marked = false;                     ///< edited before it was exported and opened again
-    std::vector<std::optional<float>> rmse;  ///< m; of the parts
-  };
-  std::vector<Own> own_;                    // empty where the attributes are in `city_`
-  std::unique_ptr<AttributesAside> aside_;  // likewise
-  std::vector<Report> reports_;             // what edits do not change, and the volume that the run measured
+  [[nodiscard]] auto shared(std::string_view text) -> const std::string*;
+  std::vector<Report> reports_;  // what edits do not change, and the volume that the run measured
 
   std::mutex edits_;  // guards the next two
   edit::History history_;

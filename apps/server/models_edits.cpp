@@ -22,9 +22,9 @@ auto Models::publish(const std::vector<std::string>& changed, const OpenScene* s
     if (const auto* member = scene == nullptr ? nullptr : scene->member_of(building->id); member != nullptr)
       own.include(geometry::bounds(member->polygons));
     const auto near_by = [&](const geometry::Box2& box) { return touch(box, own); };
-    if (std::ranges::find(changed, building->id) == changed.end() && !building->parts.empty() &&
+    if (std::ranges::find(changed, building->id) == changed.end() && !building->box.empty() &&
         std::ranges::any_of(boxes, near_by))
-      now.push_back({building->id, 0, building->parts});
+      now.push_back({building->id, 0, *parts_of(index_.find(building->id)->second, *building)});
   }
   std::vector<std::shared_ptr<const Seen>> renewed(now.size());
   base::parallel_for(now.size(), [&](std::size_t i) {
@@ -107,11 +107,10 @@ auto Models::unedited(const OpenScene* scene) const -> std::string {
   for (auto& building : first.buildings) {
     if (!building->edited) continue;
     edit::Change change{building->id, 0, {}};
-    for (const auto& part : city_.buildings[index_.find(building->id)->second].parts)
-      change.parts.push_back({part.id, part.plan});
     auto seen = std::make_shared<Seen>(*building);
-    seen->parts = change.parts;
-    seen->box = box_of(seen->parts);
+    seen->parts = first_->plans(index_.find(building->id)->second);
+    change.parts = *seen->parts;
+    seen->box = box_of(*seen->parts);
     building = std::move(seen);
     changes.push_back(std::move(change));
   }
@@ -133,7 +132,8 @@ auto Models::edit_to(const std::vector<edit::Change>& wanted, const std::string&
     const auto at = known(change, *now);
     if (!at) return at.error();
     const auto& building = *now->buildings[*at];
-    if (building.parts != change.parts) edit.changes.push_back({building.id, building.revision, change.parts});
+    if (*parts_of(*at, building) != change.parts)
+      edit.changes.push_back({building.id, building.revision, change.parts});
   }
   return edit.changes.empty() ? std::optional<edit::Edit>() : std::optional(std::move(edit));
 }
@@ -185,16 +185,7 @@ auto Models::edited(const SceneOrNone& scene) -> base::Result<std::shared_ptr<co
     const std::scoped_lock adding(mutex);
     return used.emplace_back(std::move(mesh)).get();
   };
-  model::City whole;  // an export needs all of it in memory
-  if (aside_) {
-    whole = {city_.frame, city_.made_by, {}};
-    for (std::size_t b = 0; b < city_.buildings.size(); ++b) {
-      auto own = with_attributes(b);
-      if (!own) return own.error();
-      whole.buildings.push_back(std::move(*own));
-    }
-  }
-  auto city = edit::edited_city(aside_ ? whole : city_, *history, mesh_of, options_);
+  auto city = edit::edited_city(*first_->city(), *history, mesh_of, options_);  // all in memory
   if (!city) return city.error();
   export_ = Export{number, scene != nullptr, std::make_shared<const model::City>(std::move(*city))};
   return export_->city;

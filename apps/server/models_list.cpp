@@ -25,32 +25,6 @@ auto tile_of(const geometry::Box2& box) -> std::pair<std::int64_t, std::int64_t>
   return {along(box.least.x, box.most.x), along(box.least.y, box.most.y)};
 }
 
-/// Where the roof of a plan is at about half its height: what a box in place of the model has as its top.
-auto middle_of_roof(const model::Plan& plan) -> double {
-  double eaves = plan.cap, top = 0;
-  for (const auto& profile : plan.profiles) {
-    for (const auto& point : profile) top = std::max(top, point.height);
-    const auto leaves = std::ranges::find_if(profile, [](const auto& point) { return point.inward > 0; });
-    if (leaves != profile.begin() && leaves != profile.end()) eaves = std::min(eaves, std::prev(leaves)->height);
-  }
-  top = std::min(top > 0 ? top : plan.cap, plan.cap);
-  return std::isfinite(top) ? (std::min(eaves, top) + top) / 2 : 0;
-}
-
-auto centimetres(double metres) -> std::string { return std::to_string(std::llround(100 * metres)); }
-
-/// [base, height, x, y, x, y …] of every part, in centimetres.
-auto shapes_of(const std::vector<edit::NamedPlan>& parts) -> std::string {
-  std::string out = "[";
-  for (const auto& part : parts) {
-    if (out.size() > 1) out += ',';
-    (((out += '[') += centimetres(part.plan.base)) += ',') += centimetres(middle_of_roof(part.plan));
-    for (const auto& p : part.plan.outer.points) (((out += ',') += centimetres(p.x)) += ',') += centimetres(p.y);
-    out += ']';
-  }
-  return out + ']';
-}
-
 /// One column of the list.
 template <class Rows, class Text>
 auto listed(const char* name, const Rows& rows, Text text) -> std::string {
@@ -125,12 +99,12 @@ auto Models::list() const -> std::string {
   const auto& all = now->buildings;
   std::string reasons;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (!reports_[i].reasons.empty())
-      (((reasons += reasons.empty() ? "" : ",") += text_of(all[i]->id)) += ':') += reports_[i].reasons;
+    if (const auto& text = *reports_[i].reasons; !text.empty())
+      (((reasons += reasons.empty() ? "" : ",") += text_of(all[i]->id)) += ':') += text;
   std::string out = R"({"tile_size":)" + std::to_string(tile_size);
   out += listed("ids", all, [&](auto i) { return text_of(all[i]->id); });
-  out += listed("blocks", all, [&](auto i) { return text_of(reports_[i].block); });
-  out += listed("outcomes", all, [&](auto i) { return text_of(reports_[i].outcome); });
+  out += listed("blocks", all, [&](auto i) { return text_of(*reports_[i].block); });
+  out += listed("outcomes", all, [&](auto i) { return text_of(*reports_[i].outcome); });
   out += listed("volumes", all, [&](auto i) { return text_of(std::round(all[i]->volume * 100) / 100); });
   out += listed("errors", all, [&](auto i) { return all[i]->mse ? text_of(*all[i]->mse) : std::string("null"); });
   out += listed("confidences", all, [&](auto i) {
@@ -138,7 +112,8 @@ auto Models::list() const -> std::string {
     return right && !all[i]->edited ? text_of(*right) : std::string("null");
   });
   out += listed("edited", all, [&](auto i) { return std::string(all[i]->edited ? "true" : "false"); });
-  out += listed("shapes", all, [&](auto i) { return shapes_of(all[i]->parts); });
+  out += listed("shapes", all,
+                [&](auto i) { return all[i]->parts ? shapes_of(*all[i]->parts) : std::string(first_->shapes(i)); });
   out += R"(,"attributes":)" + text_of(meanings_json(names()));
   return out + R"(,"reasons":{)" + reasons + R"(},"history":)" + text_of(now->history) + '}';
 }
@@ -154,25 +129,10 @@ auto Models::tile(std::int64_t column, std::int64_t row) const -> std::string {
 }
 
 auto Models::names() const -> std::vector<std::string> {
-  std::vector<std::string> order;
-  std::set<std::string, std::less<>> seen;
-  std::vector<std::string_view> last, now;  // most buildings have the names of the one before
-  const auto note = [&](const std::string& name) {
-    if (seen.insert(name).second) order.push_back(name);
-  };
-  if (aside_) std::ranges::for_each(aside_->names(), note);
-  const auto add = [&](const model::Attributes& attributes) {
-    now.clear();
-    for (const auto& one : attributes) now.emplace_back(one.first);
-    if (now == last) return;
-    for (const auto name : now)
-      if (seen.emplace(name).second) order.emplace_back(name);
-    std::swap(last, now);
-  };
-  for (const auto& building : city_.buildings) add(building.attributes);
-  for (const auto& building : city_.buildings)
-    for (const auto& part : building.parts) add(part.attributes);
-  for (const auto& own : report::review_attributes()) note(own.name);
+  auto order = first_->attributes();
+  std::set<std::string, std::less<>> seen(order.begin(), order.end());
+  for (const auto& own : report::review_attributes())
+    if (seen.insert(own.name).second) order.push_back(own.name);
   return order;
 }
 
@@ -190,19 +150,14 @@ auto Models::column(const std::string& attribute,
     return std::ranges::find(attributes, attribute, &model::Attributes::value_type::first);
   };
   const auto now = view();
-  std::string out = R"({"attribute":)" + text_of(meaning[0]) + R"(,"values":[)";
-  for (std::size_t b = 0; b < now->buildings.size(); ++b) {
-    if (b > 0) out += ',';
-    model::Building kept;
-    if (aside_)
-      if (auto read = attributes_of(b, kept); !read) return read.failure();
-    const auto& building = aside_ ? kept : city_.buildings[b];
+  std::vector<std::string> values(now->buildings.size(), "null");
+  first_->each([&](std::size_t b, const model::Building& building) {
     const auto& id = now->buildings[b]->id;
     if (of_review)
       if (const auto decided = more.find(id); decided != more.end()) {
         const auto at = in(decided->second);
-        out += at == decided->second.end() ? std::string("null") : text_of(value_json(at->second));
-        continue;
+        if (at != decided->second.end()) values[b] = text_of(value_json(at->second));
+        return;
       }
     const model::Value* value = nullptr;
     if (const auto at = in(building.attributes); at != building.attributes.end()) value = &at->second;
@@ -211,8 +166,10 @@ auto Models::column(const std::string& attribute,
       if (const auto at = in(part.attributes); at != part.attributes.end()) value = &at->second;
     }
     const bool changed = computed && now->buildings[b]->edited && model_now(id)->changed;
-    out += value == nullptr || changed ? std::string("null") : text_of(value_json(*value));
-  }
+    if (value != nullptr && !changed) values[b] = text_of(value_json(*value));
+  });
+  std::string out = R"({"attribute":)" + text_of(meaning[0]) + R"(,"values":[)";
+  for (std::size_t b = 0; b < values.size(); ++b) (out += b == 0 ? "" : ",") += values[b];
   return out + "]}";
 }
 
@@ -220,19 +177,16 @@ auto Models::search(const std::string& words, const std::map<std::string, model:
     -> std::string {
   const auto now = view();
   const auto terms = terms_of(words);
-  std::string out;
-  for (std::size_t b = 0; b < now->buildings.size(); ++b) {
+  std::vector<char> found(now->buildings.size());
+  first_->each([&](std::size_t b, const model::Building& own) {
     const auto& building = *now->buildings[b];
-    model::Building kept;
-    if (aside_) (void)attributes_of(b, kept);  // where the disk fails it is found by the rest
-    const auto& own = aside_ ? kept : city_.buildings[b];
     std::vector<const model::Attributes*> lists{&own.attributes};
     for (const auto& part : own.parts) lists.push_back(&part.attributes);
-    if (const auto found = more.find(building.id); found != more.end()) lists.push_back(&found->second);
+    if (const auto decided = more.find(building.id); decided != more.end()) lists.push_back(&decided->second);
     const auto has = [&](const Term& term) {
       if (term.is != 0) return holds(term, lists);
       const auto in = [&](const std::string& text) { return base::lower(text).find(term.text) != std::string::npos; };
-      if (in(building.id) || in(reports_[b].block) || in(reports_[b].outcome)) return true;
+      if (in(building.id) || in(*reports_[b].block) || in(*reports_[b].outcome)) return true;
       if (building.edited && in("edited")) return true;
       return std::ranges::any_of(lists, [&](const auto* list) {
         return std::ranges::any_of(*list, [&](const auto& one) {
@@ -241,8 +195,11 @@ auto Models::search(const std::string& words, const std::map<std::string, model:
         });
       });
     };
-    if (std::ranges::all_of(terms, has)) (out += out.empty() ? "" : ",") += text_of(building.id);
-  }
+    found[b] = std::ranges::all_of(terms, has) ? 1 : 0;
+  });
+  std::string out;
+  for (std::size_t b = 0; b < found.size(); ++b)
+    if (found[b] != 0) (out += out.empty() ? "" : ",") += text_of(now->buildings[b]->id);
   return R"({"ids":[)" + out + "]}";
 }
 
@@ -256,10 +213,15 @@ auto Models::made(std::size_t at, const View& view) const -> std::shared_ptr<con
       return kept_.front().made;
     }
   }
-  auto building = raised({known->id, 0, known->parts}, at, {}, view, nullptr);
-  for (std::size_t p = 0; p < building.parts.size() && !known->edited; ++p) building.parts[p].mse = mse_of_run(at, p);
-  building.mse = known->mse;
-  auto made = with_models(*known, building);
+  auto own = *known;
+  own.parts = parts_of(at, own);
+  auto building = raised({own.id, 0, *own.parts}, at, {}, view, nullptr);
+  if (!own.edited) {
+    const auto first = first_->building(at);
+    for (std::size_t p = 0; p < building.parts.size(); ++p) building.parts[p].mse = mse_of_run(*first, p);
+  }
+  building.mse = own.mse;
+  auto made = with_models(std::move(own), building);
   const std::scoped_lock lock(kept_mutex_);
   kept_.push_front({known, made});
   kept_at_[known.get()] = kept_.begin();
@@ -282,27 +244,20 @@ auto Models::edited_around(const std::string& building, const SceneOrNone& scene
   const auto at = index_.find(building);
   if (at == index_.end())
     return base::error("edit-building", "unknown building; /api/runs/{run}/list lists those of the run", building);
-  model::City city{city_.frame, city_.made_by, {}};
+  model::City city{first_->frame(), first_->made_by(), {}};
   std::vector<edit::Change> changes;
-  const auto take = [&](std::size_t b) {
+  const auto add = [&](std::size_t b) {
     const auto& building_now = *now->buildings[b];
-    const auto& first = city_.buildings[b].parts;
-    const bool same = std::ranges::equal(first, building_now.parts, [](const auto& part, const auto& plan) {
-      return part.id == plan.id && part.plan == plan.plan;
-    });
-    if (!same) changes.push_back({building_now.id, 0, building_now.parts});
+    const auto& own = city.buildings.emplace_back(*first_->building(b));
+    if (building_now.parts &&
+        !std::ranges::equal(own.parts, *building_now.parts, [](const auto& part, const auto& plan) {
+          return part.id == plan.id && part.plan == plan.plan;
+        }))
+      changes.push_back({building_now.id, 0, *building_now.parts});
   };
-  const auto add = [&](std::size_t b) -> base::Result<void> {
-    auto own = with_attributes(b);
-    if (!own) return own.failure();
-    city.buildings.push_back(std::move(*own));
-    take(b);
-    return {};
-  };
-  if (auto added = add(at->second); !added) return added.failure();
+  add(at->second);
   for (std::size_t b = 0; b < now->buildings.size(); ++b)
-    if (b != at->second && touch(now->buildings[at->second]->box, now->buildings[b]->box))
-      if (auto added = add(b); !added) return added.failure();
+    if (b != at->second && touch(now->buildings[at->second]->box, now->buildings[b]->box)) add(b);
   edit::History history(city);
   if (!changes.empty())
     if (auto applied = history.apply({"edits", std::move(changes)}); !applied) return applied.error();

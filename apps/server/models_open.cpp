@@ -5,35 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <functional>
 
 #include "apps/server/model_boxes.hpp"
 #include "apps/server/options.hpp"
 #include "mansard/evaluate/evaluate.hpp"
 #include "mansard/formats/plans.hpp"
-#include "mansard/formats/stream.hpp"
+#include "mansard/formats/plans_file.hpp"
 #include "mansard/solid/solid.hpp"
 
 namespace mansard::server {
 namespace {
-
-auto number(const model::Attributes& attributes, std::string_view name) -> std::optional<double> {
-  for (const auto& [key, value] : attributes)
-    if (const auto* found = std::get_if<double>(&value); found != nullptr && key == name) return *found;
-  return std::nullopt;
-}
-
-/// Whether the building was edited before it was exported and opened again.
-auto has_mark(const model::Building& building) -> bool {
-  const auto marked = [](const model::Attributes& attributes) {
-    return std::ranges::any_of(attributes, [](const auto& one) {
-      const auto* flag = std::get_if<bool>(&one.second);
-      return one.first == edit::edited_mark && (flag == nullptr || *flag);
-    });
-  };
-  return marked(building.attributes) ||
-         std::ranges::any_of(building.parts, [&](const auto& part) { return marked(part.attributes); });
-}
 
 auto squared(const std::optional<double>& value) -> std::optional<double> {
   return value ? std::optional(*value * *value) : std::nullopt;
@@ -44,7 +25,8 @@ auto city_after(const model::City& city, const edit::History& history) -> model:
   model::City out{city.frame, city.made_by, {}};
   for (const auto& building : city.buildings) {
     model::Building now{building.id, {}, {}, building.ground, {}};
-    for (const auto& part : *history.parts(building.id)) now.parts.push_back({part.id, part.plan, {}, {}});
+    const auto parts = history.parts(building.id);
+    for (const auto& part : *parts) now.parts.push_back({part.id, part.plan, {}, {}});
     out.buildings.push_back(std::move(now));
   }
   return out;
@@ -64,60 +46,37 @@ auto mean_error(const std::vector<edit::RaisedPart>& parts) -> std::optional<dou
 
 }  // namespace
 
-namespace {
-
-/// The plans of a large run, with the attributes put aside.
-auto read_aside(const std::filesystem::path& path, AttributesAside& aside,
-                const std::function<void(const model::Building&)>& look) -> base::Result<model::City> {
-  auto reader = formats::read_city(path);
-  if (!reader) return reader.failure();
-  model::City city{(*reader)->header().frame, (*reader)->header().made_by, {}};
-  while (true) {
-    auto next = (*reader)->next();
-    if (!next) return next.failure();
-    if (!*next) break;
-    look(**next);
-    aside.add(**next);
-    city.buildings.push_back(std::move(**next));
-  }
-  if (auto refused = (*reader)->refused(); !refused.empty()) return base::Failure{std::move(refused)};
-  return city;
-}
-
-}  // namespace
-
-Models::Models(model::City city, edit::History history, Journal journal, pipeline::Options options)
-    : city_(std::move(city)), options_(std::move(options)), history_(std::move(history)), journal_(std::move(journal)) {
-  for (std::size_t b = 0; b < city_.buildings.size(); ++b) index_[city_.buildings[b].id] = b;
+Models::Models(std::shared_ptr<const RunBuildings> first, edit::History history, Journal journal,
+               pipeline::Options options)
+    : first_(std::move(first)),
+      options_(std::move(options)),
+      history_(std::move(history)),
+      journal_(std::move(journal)) {
+  index_.reserve(first_->size());
+  for (std::size_t b = 0; b < first_->size(); ++b) index_[first_->id(b)] = b;
 }
 
 auto Models::open(const std::filesystem::path& folder, const RunRecord& run, const SceneOrNone& scene,
                   const std::string& inputs) -> base::Result<std::shared_ptr<Models>> {
   pipeline::Options options;
   if (auto set = set_all(options, run.options); !set) return set.error();
-  const bool large = run.buildings > most_at_once;
-  std::unique_ptr<AttributesAside> aside;
-  std::vector<Own> own;
-  if (large) {
-    auto opened = AttributesAside::open();
-    if (!opened) return opened.error();
-    aside = std::move(*opened);
+  const auto plans = folder / "plans.json";
+  auto index = run.buildings > most_at_once ? run_index(folder) : std::nullopt;
+  if (index && index->ids.size() <= most_at_once) index.reset();  // the record of the run is wrong
+  std::shared_ptr<const RunBuildings> first;
+  if (index)
+    if (auto file = formats::PlansFile::open(plans, index->header))
+      first = std::make_shared<const RunBuildings>(std::move(file), *index);
+  if (!first) {
+    index.reset();
+    auto city = formats::read_plans(plans);
+    if (!city) return city.failure();
+    first = std::make_shared<const RunBuildings>(std::move(*city));
   }
-  auto city = large ? read_aside(folder / "plans.json", *aside,
-                                 [&](const model::Building& building) {
-                                   Own of{has_mark(building), {}};
-                                   for (const auto& part : building.parts) {
-                                     const auto rmse = number(part.attributes, "ms_rmse_lod22");
-                                     of.rmse.push_back(rmse ? std::optional(static_cast<float>(*rmse)) : std::nullopt);
-                                   }
-                                   own.push_back(std::move(of));
-                                 })
-                    : formats::read_plans(folder / "plans.json");
-  if (!city) return city.error();
   const auto path = journal_of(folder);
   const auto text = read_journal(path);
   if (!text) return text.error();
-  auto replayed = edit::replay(*city, *text);
+  auto replayed = edit::replay(first->in_memory() ? edit::History(*first->city()) : edit::History(first), *text);
   if (!replayed) {
     auto why = replayed.error();
     why.subject = path.string();
@@ -126,12 +85,19 @@ auto Models::open(const std::filesystem::path& folder, const RunRecord& run, con
   auto journal = Journal::open(path, replayed->kept);
   if (!journal) return journal.error();
   const std::shared_ptr<Models> models(
-      new Models(std::move(*city), std::move(replayed->history), std::move(*journal), std::move(options)));
-  models->aside_ = std::move(aside);
-  models->own_ = std::move(own);
-  if (auto read = models->read_reports(folder / "report.json"); !read) return read.error();
-  if (models->city_.buildings.size() > most_at_once) {
-    models->list_all(scene.get());
+      new Models(first, std::move(replayed->history), std::move(*journal), std::move(options)));
+  if (index) models->take_reports(*index);
+  else if (auto read = models->read_reports(folder / "report.json"); !read) return read.error();
+  if (first->size() > most_at_once) {
+    std::vector<std::optional<double>> errors(first->size());
+    std::vector<geometry::Box2> boxes(first->size());
+    if (!index)
+      first->each([&](std::size_t b, const model::Building& building) {
+        errors[b] = error_of(building);
+        boxes[b] = box_of(*first->plans(b));
+      });
+    models->list_all(scene.get(), index ? index->errors : errors, index ? index->boxes : boxes);
+    index.reset();
     ::malloc_trim(0);  // what reading took is not kept
     return models;
   }
@@ -143,21 +109,36 @@ auto Models::open(const std::filesystem::path& folder, const RunRecord& run, con
   return models;
 }
 
+auto Models::shared(std::string_view text) -> const std::string* {
+  const auto found = strings_.find(text);
+  return &*(found != strings_.end() ? found : strings_.emplace(text).first);
+}
+
+void Models::take_reports(RunIndex& index) {
+  std::vector<const std::string*> strings;
+  for (const auto& text : index.strings) strings.push_back(shared(text));
+  for (std::size_t b = 0; b < first_->size(); ++b)
+    reports_.push_back({strings[index.blocks[b]], strings[index.outcomes[b]], strings[index.reasons[b]],
+                        index.grounds[b], index.volumes[b], index.confidences[b]});
+}
+
 auto Models::read_reports(const std::filesystem::path& path) -> base::Result<void> {
   std::ifstream file(path, std::ios::binary);
   if (!file) return base::error("file-missing", "the report of the run is missing; delete the run", path.string());
-  const auto z0 = static_cast<double>(city_.frame.origin[2]);
-  reports_.resize(city_.buildings.size());
+  const auto z0 = static_cast<double>(first_->frame().origin[2]);
+  const auto city = first_->city();
+  const auto* none = shared("");
+  reports_.assign(first_->size(), Report{none, none, none, 0, 0, {}});
   const auto read = [&](const Json& building) {
     const auto at = index_.find(building.at("id").get<std::string>());
     if (at == index_.end()) return;
     auto& report = reports_[at->second];
-    if (const auto& reasons = building.at("reasons"); !reasons.empty()) report.reasons = text_of(reasons);
-    report.block = building.at("block").get<std::string>();
-    report.outcome = building.at("outcome").get<std::string>();
+    if (const auto& reasons = building.at("reasons"); !reasons.empty()) report.reasons = shared(text_of(reasons));
+    report.block = shared(building.at("block").get<std::string>());
+    report.outcome = shared(building.at("outcome").get<std::string>());
     // The report has no ground height for a building without parts; the plans have it.
     report.ground =
-        building.contains("ground_m") ? building.at("ground_m").get<double>() - z0 : city_.buildings[at->second].ground;
+        building.contains("ground_m") ? building.at("ground_m").get<double>() - z0 : city->buildings[at->second].ground;
     if (building.contains("confidence")) report.confidence = building.at("confidence").at("right").get<double>();
     if (building.contains("volume_m3")) report.volume = building.at("volume_m3").get<double>();
   };
@@ -174,10 +155,10 @@ auto Models::read_reports(const std::filesystem::path& path) -> base::Result<voi
       return base::error("server-project", "the report of a run is no JSON object; restore the file, or delete the run",
                          path.string());
     for (std::size_t b = 0; b < reports_.size(); ++b)
-      if (reports_[b].outcome.empty())
+      if (reports_[b].outcome->empty())
         return base::error("server-project",
                            "the report lacks a building of plans.json; delete the run and start it again",
-                           city_.buildings[b].id);
+                           first_->id(b));
   } catch (const Json::exception& e) {
     return base::error(
         "server-project",
@@ -190,15 +171,17 @@ auto Models::read_reports(const std::filesystem::path& path) -> base::Result<voi
 /// All plans at once, as for an export. With a scene, every building is measured over its footprint, edited or not;
 /// without one, buildings without edits keep the error that the run measured over their parts.
 auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
-  auto raised = pipeline::raise_plans(city_after(city_, history_), options_, {});
+  const auto whole = first_->city();
+  const auto& city = *whole;
+  auto raised = pipeline::raise_plans(city_after(city, history_), options_, {});
   if (!raised) return raised.failure();
   if (!raised->refused.empty()) return base::Failure{std::move(raised->refused)};
   auto view = std::make_shared<View>();
   view->history = json_of(history_);
   view->applied = history_.done();
-  std::vector<edit::RaisedBuilding> buildings(city_.buildings.size());
+  std::vector<edit::RaisedBuilding> buildings(city.buildings.size());
   auto fell_short = raised->fell_short.begin();
-  for (std::size_t b = 0; b < city_.buildings.size(); ++b) {
+  for (std::size_t b = 0; b < city.buildings.size(); ++b) {
     auto& source = raised->city.buildings[b];
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
       edit::RaisedPart part{source.parts[p].id, std::move(source.parts[p].model), extrude::Outcome::full, {}, {}, 0};
@@ -208,15 +191,15 @@ auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
         ++fell_short;
       }
       part.volume = solid::volume(part.model->solid);
-      if (!history_.edited(source.id)) part.mse = mse_of_run(b, p);
+      if (!history_.edited(source.id)) part.mse = mse_of_run(city.buildings[b], p);
       buildings[b].parts.push_back(std::move(part));
     }
   }
   std::vector<geometry::Box2> boxes;
-  for (const auto& building : city_.buildings) boxes.push_back(box_of(*history_.parts(building.id)));
+  for (const auto& building : city.buildings) boxes.push_back(box_of(*history_.parts(building.id)));
   std::vector<std::string> plans;
   if (!measures_.empty())
-    for (const auto& building : city_.buildings) plans.push_back(hash_of(*history_.parts(building.id)));
+    for (const auto& building : city.buildings) plans.push_back(hash_of(*history_.parts(building.id)));
   std::vector<char> measured(buildings.size(), scene == nullptr ? 0 : 1);
   base::parallel_for(buildings.size(), [&](std::size_t b) {
     auto& building = buildings[b];
@@ -249,67 +232,54 @@ auto Models::raise_all(const OpenScene* scene) -> base::Result<void> {
     building.mse = evaluate::footprint_error(solids, *mesh, member->polygons, member->ground, options_.evaluate);
   });
   for (std::size_t b = 0; b < buildings.size(); ++b)
-    view->buildings.push_back(seen(city_.buildings[b].id, buildings[b], measured[b] != 0));
+    view->buildings.push_back(seen(city.buildings[b].id, buildings[b], measured[b] != 0));
   view_ = std::move(view);
   return {};
 }
 
 /// Without models, but for the edited buildings. The others keep the error that the run measured over their parts.
-void Models::list_all(const OpenScene* scene) {
+void Models::list_all(const OpenScene* scene, const std::vector<std::optional<double>>& errors,
+                      const std::vector<geometry::Box2>& boxes) {
   auto view = std::make_shared<View>();
   view->history = json_of(history_);
   view->applied = history_.done();
-  for (std::size_t b = 0; b < city_.buildings.size(); ++b) {
-    auto listed = std::make_shared<Seen>(named(city_.buildings[b].id));
+  std::vector<std::size_t> edited;
+  for (std::size_t b = 0; b < first_->size(); ++b) {
+    auto listed = std::make_shared<Seen>();
+    listed->id = first_->id(b);
+    if (history_.revision(listed->id) > 0) {
+      *listed = named(listed->id);
+    } else {
+      listed->box = boxes[b];
+      listed->edited = first_->marked(b);
+      if (first_->in_memory()) listed->parts = history_.parts(listed->id);
+    }
     listed->measured = true;
     listed->volume = reports_[b].volume;
-    double sum = 0, area = 0;
-    for (std::size_t p = 0; p < listed->parts.size() && !history_.edited(listed->id); ++p) {
-      const auto mse = mse_of_run(b, p);
-      const double own = geometry::area(model::polygon_of(listed->parts[p].plan));
-      if (mse) sum += *mse * own, area += own;
-    }
-    if (area > 0) listed->mse = sum / area;
+    if (history_.edited(listed->id)) edited.push_back(b);
+    else listed->mse = errors[b];
     view->buildings.push_back(std::move(listed));
   }
-  for (std::size_t b = 0; b < view->buildings.size(); ++b) {
+  for (const auto b : edited) {
     const auto& id = view->buildings[b]->id;
-    if (!history_.edited(id)) continue;
     const auto raised = this->raised({id, 0, *history_.parts(id)}, b, {}, *view, scene);
     view->buildings[b] = seen(id, raised, scene != nullptr);
   }
   view_ = std::move(view);
 }
 
-auto Models::mse_of_run(std::size_t building, std::size_t part) const -> std::optional<double> {
-  if (aside_) {
-    const auto& rmse = own_[building].rmse;
-    return part < rmse.size() && rmse[part] ? squared(static_cast<double>(*rmse[part])) : std::nullopt;
-  }
-  const auto& parts = city_.buildings[building].parts;
-  return part < parts.size() ? squared(number(parts[part].attributes, "ms_rmse_lod22")) : std::nullopt;
-}
-
-auto Models::with_attributes(std::size_t building) const -> base::Result<model::Building> {
-  auto out = city_.buildings[building];
-  if (aside_)
-    if (auto restored = aside_->restore(building, out); !restored) return restored.failure();
-  return out;
-}
-
-auto Models::attributes_of(std::size_t building, model::Building& to) const -> base::Result<void> {
-  to.parts.resize(city_.buildings[building].parts.size());
-  return aside_->restore(building, to);
+auto Models::mse_of_run(const model::Building& building, std::size_t part) const -> std::optional<double> {
+  const auto& parts = building.parts;
+  return part < parts.size() ? squared(number_of(parts[part].attributes, "ms_rmse_lod22")) : std::nullopt;
 }
 
 auto Models::named(const std::string& id) const -> Seen {
   Seen out;
   out.id = id;
   out.revision = history_.revision(id);
-  out.parts = *history_.parts(id);
-  out.box = box_of(out.parts);
-  const auto at = index_.find(id)->second;
-  out.edited = history_.edited(id) || (aside_ ? own_[at].marked : has_mark(city_.buildings[at]));
+  out.parts = history_.parts(id);
+  out.box = box_of(*out.parts);
+  out.edited = history_.edited(id) || first_->marked(index_.find(id)->second);
   return out;
 }
 
@@ -330,11 +300,11 @@ auto Models::with_models(Seen named, const edit::RaisedBuilding& raised) const -
     out->mse_of_parts.push_back(part.mse);
     if (part.model) out->models.push_back(*part.model);
   }
-  auto json = json_of(out->id, out->revision, out->parts, raised);
+  auto json = json_of(out->id, out->revision, *out->parts, raised);
   const auto& report = reports_[index_.find(out->id)->second];
-  json["block"] = report.block;
-  json["outcome"] = report.outcome;
-  json["reasons"] = report.reasons.empty() ? Json::array() : Json::parse(report.reasons);
+  json["block"] = *report.block;
+  json["outcome"] = *report.outcome;
+  json["reasons"] = report.reasons->empty() ? Json::array() : Json::parse(*report.reasons);
   json["ground"] = report.ground;
   json["edited"] = out->edited;
   json["confidence"] = report.confidence && !out->edited ? Json(*report.confidence) : Json(nullptr);

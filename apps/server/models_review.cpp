@@ -185,12 +185,12 @@ auto Models::model_now(std::string_view building) const -> std::optional<ModelNo
   const auto at = index_.find(building);
   if (at == index_.end() || at->second >= now->buildings.size()) return std::nullopt;
   const auto& known = *now->buildings[at->second];
-  const auto& first = city_.buildings[at->second].parts;
-  const bool same = std::ranges::equal(first, known.parts,
-                                       [](const auto& part, const auto& now_has) { return part.plan == now_has.plan; });
+  const auto first = first_->plans(at->second);
+  const auto parts = known.parts ? known.parts : first;
+  const bool same = std::ranges::equal(*first, *parts, {}, &edit::NamedPlan::plan, &edit::NamedPlan::plan);
   std::vector<const model::Plan*> plans;
-  for (const auto& part : known.parts) plans.push_back(&part.plan);
-  return ModelNow{report::model_key(plans, city_.frame), known.revision, !same};
+  for (const auto& part : *parts) plans.push_back(&part.plan);
+  return ModelNow{report::model_key(plans, first_->frame()), known.revision, !same};
 }
 
 auto Models::review_case(const std::string& building, const OpenScene* scene) const -> base::Result<std::string> {
@@ -198,6 +198,7 @@ auto Models::review_case(const std::string& building, const OpenScene* scene) co
   const auto index = known({building, 0, {}}, *now);
   if (!index) return index.error();
   const auto& own = *now->buildings[*index];
+  const auto parts_now = parts_of(*index, own);
   const auto scan = scene == nullptr ? nullptr : scene->rays_of(building);
   const auto* member = scene == nullptr ? nullptr : scene->member_of(building);
 
@@ -214,12 +215,12 @@ auto Models::review_case(const std::string& building, const OpenScene* scene) co
       for (const auto& part : one->models) solids.push_back(&part.solid);
     const rays::Scene models(mesh_of_solids(solids));
     std::vector<geometry::Polygon> others;
-    if (const auto* block = scene->block_named(reports_[*index].block); block != nullptr) {
+    if (const auto* block = scene->block_named(*reports_[*index].block); block != nullptr) {
       others = block->beside;
       for (const auto& one : block->members)
         if (&one != member) others.insert(others.end(), one.polygons.begin(), one.polygons.end());
     }
-    const auto& text = reports_[*index].reasons;
+    const auto& text = *reports_[*index].reasons;
     const auto reasons = text.empty() ? Json::array() : Json::parse(text);
     const auto reason = reasons.empty() ? std::string() : reasons.front().value("code", std::string());
     if (const auto found =
@@ -227,23 +228,21 @@ auto Models::review_case(const std::string& building, const OpenScene* scene) co
       place = {{"at", {found->at.x, found->at.y, found->at.z}},
                {"what", to_string(found->what)},
                {"difference", found->difference ? Json(*found->difference) : Json(nullptr)}};
-    const auto bare = without_structures(own.parts);
+    const auto bare = without_structures(*parts_now);
     candidates = plain_candidates(bare, bare.size() > 1 ? " on each part" : std::string(), *scan, options_);
     if (bare.size() != 1 && member->polygons.size() == 1) {
       model::Plan whole;
       whole.outer.points = member->polygons.front().outer;
       for (const auto& hole : member->polygons.front().holes) whole.holes.push_back({hole, {}});
       whole.base = member->ground;
-      const auto id = own.parts.empty() ? building + "-1" : own.parts.front().id;
+      const auto id = parts_now->empty() ? building + "-1" : parts_now->front().id;
       for (auto& one : plain_candidates({{id, std::move(whole)}}, " over the whole footprint", *scan, options_))
         candidates.push_back(std::move(one));
     }
   }
-  if (auto bare = without_structures(own.parts); bare.size() < own.parts.size() && !bare.empty())
+  if (auto bare = without_structures(*parts_now); bare.size() < parts_now->size() && !bare.empty())
     candidates.push_back({"without the structures on the roof", std::move(bare), false});
-  Candidate first{"as the run made it", {}, false};
-  for (const auto& part : city_.buildings[*index].parts) first.parts.push_back({part.id, part.plan});
-  candidates.push_back(std::move(first));
+  candidates.push_back({"as the run made it", *first_->plans(*index), false});
 
   struct Offered {
     Candidate candidate;
@@ -252,7 +251,7 @@ auto Models::review_case(const std::string& building, const OpenScene* scene) co
   std::vector<Offered> offered;
   for (auto& candidate : candidates) {
     const auto has_parts = [&](const Offered& other) { return other.candidate.parts == candidate.parts; };
-    if (candidate.parts == own.parts || candidate.parts.empty() || std::ranges::any_of(offered, has_parts)) continue;
+    if (candidate.parts == *parts_now || candidate.parts.empty() || std::ranges::any_of(offered, has_parts)) continue;
     auto raised = this->raised({building, own.revision, candidate.parts}, *index, {}, *now, scene);
     const double most = std::max(confidence::wrong_above, most_times_worse * most_times_worse * own.mse.value_or(0));
     if (candidate.plain && own.mse && raised.mse.value_or(most) > most) continue;

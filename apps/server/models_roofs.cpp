@@ -18,10 +18,13 @@ auto Models::roofs(const RoofsRequest& request, const OpenScene* scene) const ->
     const auto& [at, plan] = request.parts[i];
     const auto box = geometry::bounds(plan.outer.points);
     std::vector<model::Plan> others;
-    for (const auto& building : now->buildings)
-      if (touch(box, building->box))
-        for (const auto& part : building->parts)
-          if (building->id != at.building || part.id != at.part) others.push_back(part.plan);
+    for (std::size_t b = 0; b < now->buildings.size(); ++b) {
+      const auto& building = *now->buildings[b];
+      if (!touch(box, building.box)) continue;
+      const auto parts = parts_of(b, building);
+      for (const auto& part : *parts)
+        if (building.id != at.building || part.id != at.part) others.push_back(part.plan);
+    }
     const auto mesh = scene->rays_of(at.building);
     const auto roof = mesh == nullptr ? base::Result<edit::FittedRoof>(base::error(
                                             "edit-unseen", "the scan does not cover this building", at.building))

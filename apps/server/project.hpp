@@ -7,6 +7,7 @@
 //                           other files
 //             report.json, plans.json, layers.json, segment.gpkg, error-0.bin …
 //             journal.jsonl the edits
+//             index.bin     the list of a large run, made again where it does not fit: run_index.hpp
 //   exports/, trash/        exported files; deleted runs
 #pragma once
 

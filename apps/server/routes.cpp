@@ -265,6 +265,8 @@ auto answer(Workspace& workspace, const Route& route, const Call& call) -> Answe
     out.body = std::move(*text);
     if (route.gives == Gives::bytes) out.type = octets;
     return out;
+  } catch (const Unreadable& e) {
+    return refusal(e.why);
   } catch (const std::bad_alloc&) {
     return refusal(base::error("memory", "out of memory; read a smaller part of the mesh (ingest.bbox)"));
   } catch (const std::exception& e) {

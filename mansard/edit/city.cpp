@@ -26,6 +26,12 @@ auto attributes_of_new(const model::Building& building) -> Attributes {
   return out;
 }
 
+auto plans_of(const model::Building& building) -> std::vector<NamedPlan> {
+  std::vector<NamedPlan> out;
+  for (const auto& part : building.parts) out.push_back({part.id, part.plan});
+  return out;
+}
+
 /// The building with the plans that it has now, each with what is known of it from the run. `unchanged` gets a flag a
 /// part.
 auto with_plans(const model::Building& before, const std::vector<NamedPlan>& plans, std::vector<bool>& unchanged)
@@ -46,8 +52,11 @@ auto edited_city(const model::City& city, const History& history, const MeshOf& 
                  const pipeline::Options& options, const base::Run& run) -> base::Result<model::City> {
   model::City plans{city.frame, city.made_by, {}};
   std::vector<std::vector<bool>> unchanged(city.buildings.size());
-  for (std::size_t b = 0; b < city.buildings.size(); ++b)
-    plans.buildings.push_back(with_plans(city.buildings[b], *history.parts(city.buildings[b].id), unchanged[b]));
+  for (std::size_t b = 0; b < city.buildings.size(); ++b) {
+    const auto& building = city.buildings[b];
+    const auto edited = history.edited(building.id) ? history.parts(building.id) : nullptr;
+    plans.buildings.push_back(with_plans(building, edited ? *edited : plans_of(building), unchanged[b]));
+  }
   auto raised = pipeline::raise_plans(std::move(plans), options, run);
   if (!raised) return raised.failure();
   if (!raised->refused.empty()) return base::Failure{std::move(raised->refused)};

@@ -2,15 +2,18 @@
 // limit.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mansard/base/result.hpp"
@@ -49,13 +52,29 @@ struct Edit {
   friend auto operator==(const Edit&, const Edit&) -> bool = default;
 };
 
+/// The plans of a building. Immutable: an edit makes others.
+using Parts = std::shared_ptr<const std::vector<NamedPlan>>;
+
+/// The plans that a history starts with, of a city that is not in memory.
+class FirstPlans {
+ public:
+  FirstPlans() = default;
+  FirstPlans(const FirstPlans&) = delete;
+  auto operator=(const FirstPlans&) -> FirstPlans& = delete;
+  virtual ~FirstPlans() = default;
+  /// Null: there is no such building. From any thread.
+  [[nodiscard]] virtual auto parts(std::string_view building) const -> Parts = 0;
+};
+
 /// Plans before and after every edit. Replaying the lines of a journal gives the same state again.
 class History {
  public:
   /// Starts with the plans of the city; models and attributes play no part.
   explicit History(const model::City& city);
+  /// Only the plans of buildings that were changed are in memory.
+  explicit History(std::shared_ptr<const FirstPlans> first) : first_(std::move(first)) {}
 
-  [[nodiscard]] auto parts(std::string_view building) const -> const std::vector<NamedPlan>*;  ///< null: no such one
+  [[nodiscard]] auto parts(std::string_view building) const -> Parts;  ///< null: no such one
   /// How often the building changed, by edits, undo or redo; what a Change has to name. 0 where there is no such one.
   [[nodiscard]] auto revision(std::string_view building) const -> std::uint64_t;
   /// Whether the building's plans differ from those that it started with.
@@ -72,21 +91,30 @@ class History {
   [[nodiscard]] auto undo() -> base::Result<std::vector<std::string>>;
   [[nodiscard]] auto redo() -> base::Result<std::vector<std::string>>;
 
-  friend auto operator==(const History&, const History&) -> bool = default;
+  friend auto operator==(const History& a, const History& b) -> bool {
+    return a.first_ == b.first_ && a.buildings_ == b.buildings_ && a.edits_ == b.edits_ && a.done_ == b.done_ &&
+           std::ranges::equal(a.before_, b.before_, [](const auto& x, const auto& y) {
+             return std::ranges::equal(x, y, [](const Parts& one, const Parts& other) { return *one == *other; });
+           });
+  }
 
  private:
   struct State {
     std::uint64_t revision = 0;
-    std::vector<NamedPlan> parts;
-    std::optional<std::vector<NamedPlan>> first{};  ///< since the first change: most buildings never have one
-    friend auto operator==(const State&, const State&) -> bool = default;
+    Parts parts;
+    Parts first{};  ///< since the first change: most buildings never have one
+    friend auto operator==(const State& a, const State& b) -> bool {
+      const auto same = [](const Parts& x, const Parts& y) { return x && y ? *x == *y : x == y; };
+      return a.revision == b.revision && same(a.parts, b.parts) && same(a.first, b.first);
+    }
   };
   /// Puts plans in place of a building's own, which come back.
-  auto replace(const std::string& building, std::vector<NamedPlan> parts) -> std::vector<NamedPlan>;
+  auto replace(const std::string& building, Parts parts) -> Parts;
 
+  std::shared_ptr<const FirstPlans> first_;  // null: `buildings_` has all
   std::map<std::string, State, std::less<>> buildings_;
   std::vector<Edit> edits_;
-  std::vector<std::vector<std::vector<NamedPlan>>> before_;  // per edit, per change
+  std::vector<std::vector<Parts>> before_;  // per edit, per change
   std::size_t done_ = 0;
 };
 
@@ -101,6 +129,7 @@ struct Replayed {
   std::size_t kept = 0;
 };
 [[nodiscard]] auto replay(const model::City& city, std::string_view journal) -> base::Result<Replayed>;
+[[nodiscard]] auto replay(History start, std::string_view journal) -> base::Result<Replayed>;
 
 /// How many edits of a journal are applied after its undos and redos. Cost: the plans are not parsed.
 [[nodiscard]] auto applied_edits(std::string_view journal) -> std::size_t;

@@ -112,7 +112,11 @@ auto journal_line(const Edit& edit) -> std::string {
 }
 
 auto replay(const model::City& city, std::string_view journal) -> base::Result<Replayed> {
-  Replayed out{History(city), 0};
+  return replay(History(city), journal);
+}
+
+auto replay(History start, std::string_view journal) -> base::Result<Replayed> {
+  Replayed out{std::move(start), 0};
   std::size_t number = 0;
   for (const auto line : complete_lines(journal)) {
     ++number;

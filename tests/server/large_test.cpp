@@ -143,5 +143,137 @@ TEST(Large, models_that_are_made_when_they_are_asked_for_are_those_of_a_small_ru
   EXPECT_FALSE(untouched["values"].contains("ms_edited") && untouched["values"]["ms_edited"] == true);
 }
 
+/// What a page asks for of a large run.
+auto shown(const Running& server) -> std::string {
+  std::string all;
+  for (const auto* path : {"list", "buildings?building=b7", "attributes?building=b7", "column?attribute=ms_h_ridge",
+                           "column?attribute=street", "search?words=canal", "search?words=year%3E1998", "tiles/0_0"})
+    all += server.get(std::string("/api/runs/run-1/") + path).text + '\n';
+  return all;
+}
+
+TEST(Large, is_opened_again_with_its_index_and_shows_the_same) {
+  const Folder folder;
+  const auto run = folder / "project/runs/run-1";
+  std::string first;
+  {
+    const Running server(folder / "project");
+    import_houses(folder, server, 5'004, "large");
+    first = shown(server);
+  }
+  const auto index = read(run / "index.bin");
+  ASSERT_GT(index.size(), 100'000U);
+  const auto again = [&] {
+    const Running server(folder / "project");
+    return shown(server);
+  };
+  const auto written = fs::last_write_time(run / "index.bin");
+  EXPECT_EQ(again(), first);
+  EXPECT_EQ(fs::last_write_time(run / "index.bin"), written) << "it was used as it is";
+
+  // An index that is damaged, cut, of another version, or missing is made again.
+  auto damaged = index;
+  damaged[damaged.size() / 2] ^= 1;
+  auto older = index;
+  older.replace(0, 19, "mansard run index 0");
+  for (const auto& bytes : {damaged, index.substr(0, index.size() / 2), older, std::string(), index + "x"}) {
+    write(run / "index.bin", bytes);
+    EXPECT_EQ(again(), first);
+    EXPECT_EQ(read(run / "index.bin"), index);
+  }
+  fs::remove(run / "index.bin");
+  EXPECT_EQ(again(), first);
+  EXPECT_EQ(read(run / "index.bin"), index);
+
+  // So is one of other plans or another report.
+  auto report = read(run / "report.json");
+  report.replace(report.find("\"full\"", report.size() / 2), 6,
+                 "\"fell\"");  // as long as before, and in the middle of a large file
+  write(run / "report.json", report);
+  fs::last_write_time(run / "report.json", fs::last_write_time(run / "report.json") + std::chrono::seconds(2));
+  const auto changed = again();
+  EXPECT_NE(changed, first);
+  EXPECT_NE(changed.find("fell"), std::string::npos);
+}
+
+TEST(Large, with_files_that_are_at_fault_says_so_as_a_small_run_does) {
+  const Folder folder;
+  const auto run = folder / "project/runs/run-1";
+  {
+    const Running server(folder / "project");
+    import_houses(folder, server, 5'004, "large");
+  }
+  const auto plans = read(run / "plans.json"), report = read(run / "report.json");
+  const auto why = [&] {
+    const Running server(folder / "project");
+    return server.get("/api/runs/run-1/list").json()["error"];
+  };
+  const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
+    return text.replace(text.find(what, text.size() / 2), what.size(), by);
+  };
+  write(run / "plans.json", replaced(plans, "\"cap\":", "\"cup\":"));
+  EXPECT_EQ(why()["code"], "write-plan-key");
+  write(run / "plans.json", replaced(plans, "\"id\":\"b3000\"", "\"id\":\"b2999\""));
+  EXPECT_EQ(why()["code"], "write-plan-value");
+  write(run / "plans.json", plans.substr(0, plans.size() / 2));
+  EXPECT_EQ(why()["code"], "write-plan-json");
+  write(run / "plans.json", plans);
+  write(run / "report.json", replaced(report, "\"block\"", "\"blick\""));
+  EXPECT_EQ(why()["code"], "server-project");
+  write(run / "report.json", report.substr(0, report.size() - 9));
+  EXPECT_EQ(why()["code"], "server-project");
+  write(run / "report.json", report);
+  EXPECT_TRUE(why().is_null());
+  EXPECT_FALSE(fs::exists(run / "index.bin.part"));
+}
+
+TEST(Large, edits_undos_decisions_and_exports_are_those_of_a_small_run) {
+  const Folder folder;
+  const auto edited = [&](const std::string& name, int houses) {
+    std::vector<Json> all;
+    const Folder own;
+    const auto building = [](const Running& server, const std::string& id) {
+      return server.get("/api/runs/run-1/buildings?building=" + id).json()["buildings"][0];
+    };
+    {
+      const Running server(own / "project");
+      import_houses(folder, server, houses, name);
+      for (const auto* id : {"b50", "b51"})
+        EXPECT_EQ(server.post("/api/runs/run-1/edits", lift(building(server, id), 1)).status, 200);
+      EXPECT_EQ(server.post("/api/runs/run-1/undo", Json::object()).status, 200);
+      EXPECT_EQ(
+          server.post("/api/runs/run-1/review", {{"building", "b60"}, {"revision", 0}, {"decision", "right"}}).status,
+          200);
+    }
+    const Running server(own / "project");  // started again
+    for (const auto* id : {"b49", "b50", "b51", "b60"}) {
+      auto one = building(server, id);
+      for (const auto* part : {"volume", "mse", "outcome", "diagnostics"}) all.push_back(one["parts"][0][part]);
+      for (const auto* value : {"revision", "edited", "block", "outcome", "confidence"}) all.push_back(one[value]);
+      auto values =
+          server.get(std::string("/api/runs/run-1/attributes?building=") + id).json()["buildings"][0]["values"];
+      values.erase("ms_review_time");
+      all.push_back(std::move(values));
+    }
+    all.push_back(server.get("/api/runs/run-1/unedited").json()["buildings"][0]["parts"][0]["plan"]["cap"]);
+    all.push_back(server.get("/api/runs/run-1/list").json()["history"]);
+    auto review = server.get("/api/runs/run-1/review").json()["decisions"];
+    for (auto& one : review) one.erase("time");
+    all.push_back(review);
+    auto plans = Json::parse(server.get("/api/runs/run-1/export/plans.json").text)["buildings"];
+    for (const auto at : {50, 51, 60}) {
+      plans[at]["attributes"].erase("ms_review_time");
+      all.push_back(plans[at]["attributes"]);
+      all.push_back(plans[at]["parts"][0]["plan"]["profiles"]);
+      all.push_back(plans[at]["parts"][0]["plan"]["cap"]);
+    }
+    EXPECT_EQ(plans.size(), static_cast<std::size_t>(houses));
+    return all;
+  };
+  const auto small = edited("small", 210), large = edited("large", 5'004);
+  ASSERT_EQ(small.size(), large.size());
+  for (std::size_t i = 0; i < small.size(); ++i) EXPECT_EQ(large[i], small[i]) << i;
+}
+
 }  // namespace
 }  // namespace mansard::server

@@ -10,6 +10,7 @@
 #include "mansard/formats/detail/writers.hpp"
 #include "mansard/formats/plans/plan_items.hpp"
 #include "mansard/formats/plans/plan_text.hpp"
+#include "mansard/formats/plans/quick_building.hpp"
 
 namespace mansard::formats::detail {
 namespace {
@@ -122,6 +123,10 @@ class LargePlans : public CityReader {
       if (!c) return faults();
       text += *c;
       nesting.take(*c);
+    }
+    if (model::Building building; quick_building(text, building) && ids_.insert(building.id).second) {
+      ++number_;
+      return std::optional(std::move(building));
     }
     try {
       const Json json = parse_json(text);

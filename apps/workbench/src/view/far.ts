@@ -13,7 +13,7 @@ const roof = 2;
 const outlinesWithin = 2000;
 const wallsWithin = 800;
 const slice = 12; // ms of building buffers, between which the page does other things
-const pause = 700; // ms between images while they are built: an image of a whole city takes longer than a slice
+const pause = 700; // ms to the first image while they are built, twice as long to each next one: an image of a whole city takes seconds without a graphics card
 
 /** How many vertices the roof and the walls of a prism have; its box has six. */
 interface Counts {
@@ -101,6 +101,7 @@ export class Far {
   private waiting: string[] = [];
   private timer: ReturnType<typeof setTimeout> | undefined;
   private asked = 0;
+  private pause = pause;
   private paints: ReadonlyMap<string, Colour> | null = null;
 
   constructor(
@@ -141,6 +142,8 @@ export class Far {
     if (!same) {
       this.clear();
       this.waiting = [...(large?.tiles.keys() ?? [])];
+      this.asked = performance.now();
+      this.pause = pause;
       if (this.waiting.length) this.timer = setTimeout(this.build);
     }
     for (const [key, drawn] of this.meshes) {
@@ -162,8 +165,9 @@ export class Far {
       this.group.add(drawn.mesh);
     }
     this.timer = this.waiting.length ? setTimeout(this.build, 4) : undefined;
-    if (this.timer !== undefined && performance.now() < this.asked + pause) return;
+    if (this.timer !== undefined && performance.now() < this.asked + this.pause) return;
     this.asked = performance.now();
+    this.pause *= 2;
     this.arrived();
   };
 
