@@ -399,7 +399,7 @@ auto info_of_layers(const fs::path& path) -> base::Result<Json> {
 
 namespace {
 
-/// What its CRS lacks is told, and the rest is described nevertheless.
+/// What its CRS lacks is a warning, and the rest is described nevertheless.
 auto model_of(const fs::path& path) -> base::Result<model::Model> {
   auto model = ingest::read_model(path);
   if (model || model.error().code != "ingest-model-crs") return model;

@@ -177,6 +177,7 @@ TEST_F(OddFiles, remedies_of_meshes_in_another_frame_work) {
   // It says that y is up, and z is.
   put("wrong.dae", collada(changed([](double& x, double& y, double&) { x += 5000, y += 5000; }), "Y_UP"));
   put("down.obj", changed([](double& x, double& y, double& z) { x += 5000, y = -y - 5000, z = -z; }));
+  put("over.obj", changed([](double&, double& y, double& z) { y = -y, z = -z; }));
   put("up.obj", changed([](double& x, double& y, double& z) { x += 5000, y += 5000, std::swap(y, z); }));
   put("turned.obj", changed([](double& x, double& y, double& z) { x += 5000, y += 5000, std::swap(y, z), z = -z; }));
   put("plain.obj", changed([](double& x, double& y, double&) { x += 5000, y += 5000; }));
@@ -207,6 +208,9 @@ TEST_F(OddFiles, remedies_of_meshes_in_another_frame_work) {
       {"reconstruct -q @HERE/mirrored.obj @PRINTS -o @OUT", "scan-axis",
        "it is y up and mirrored; multiply its z by -1 and give --up y",
        "reconstruct -q @HERE/right.obj @PRINTS -o @OUT --up y"},
+      {"reconstruct -q @HERE/over.obj @PRINTS -o @OUT --up y", "scan-axis",
+       "its z axis is down; turn it by 180° about its x axis and give --up z",
+       "reconstruct -q @MESH @PRINTS -o @OUT --up z"},
       {"reconstruct -q @HERE/made/Data/house.obj @PRINTS -o @OUT", "ingest-mesh-metadata",
        "correct the file, or say --crs local to take the mesh's coordinates as they are", "--crs local"},
       {"reconstruct -q @HERE/made/Data/house.obj @HERE/rd.geojson -o @OUT", "ingest-mesh-metadata",
@@ -225,12 +229,12 @@ TEST_F(OddFiles, remedies_of_tilesets_work) {
                                          "\"features\":[" + feature(box_at(85000, 447000)) + "," +
                                              feature(box_at(85600, 447000)) + "]}"));
   ASSERT_EQ(run(filled("extrude -q @HERE/rd.geojson --default-height 6 -o @HERE/t.3dtiles")).exit, 0);
-  const std::string beside =
-      "reconstruct -q @HERE/t.3dtiles/tileset.json @HERE/both.geojson -o @OUT --bbox 85590 446990 85620 447020";
   try_all({
-      {beside, "ingest-no-overlap", "no tile of the tileset reaches into the box asked for; check --bbox",
+      {"reconstruct -q @HERE/t.3dtiles/tileset.json @HERE/both.geojson -o @OUT --bbox 85590 446990 85620 447020",
+       "ingest-no-overlap", "no tile of the tileset reaches into the box asked for; check --bbox",
        "reconstruct -q @HERE/t.3dtiles/tileset.json @HERE/both.geojson -o @OUT --bbox 84990 446990 85020 447020"},
-      {beside, "ingest-no-overlap",
+      {"reconstruct -q @HERE/t.3dtiles/tileset.json @HERE/both.geojson -o @OUT --bbox 85590 446990 85620 447020",
+       "ingest-no-overlap",
        "no tile of the tileset reaches into the box asked for; check --bbox, --crs and --mesh-offset",
        "--mesh-offset 600 0 0"},
   });
