@@ -207,7 +207,7 @@ class Triangulator::Near {
       for (std::size_t x = x0; x <= x1; ++x) edges_[x + y * columns_].push_back({edge, box, a, b});
   }
 
-  /// The nearest corner that is wanted, of those equally near the one with the least number; `none` for none.
+  /// The nearest corner that is wanted, of those equally near the one with the smallest number; `none` for none.
   template <class Wanted>
   [[nodiscard]] auto nearest(Point2 at, const Wanted& wanted) const -> std::uint32_t {
     std::vector<std::pair<double, std::uint32_t>> found;
