@@ -397,6 +397,21 @@ auto info_of_layers(const fs::path& path) -> base::Result<Json> {
   return layers_of(*source);
 }
 
+namespace {
+
+/// What its CRS lacks is a warning, and the rest is described nevertheless.
+auto model_of(const fs::path& path) -> base::Result<model::Model> {
+  auto model = ingest::read_model(path);
+  if (model || model.error().code != "ingest-model-crs") return model;
+  auto local = ingest::read_model(path, {{}, "local"});
+  if (!local) return model;
+  const auto& why = model.error();
+  local->warnings.push_back(base::warning(why.code, why.message, why.subject));
+  return local;
+}
+
+}  // namespace
+
 auto info_of_other(const fs::path& path, const base::Diagnostic& why, bool all_options, const cloud::ClassMap& classes,
                    const base::Run& run) -> base::Result<Json> {
   if (extension_of(path) == "stl") return info_of_stl(path);
@@ -411,7 +426,7 @@ auto info_of_other(const fs::path& path, const base::Diagnostic& why, bool all_o
   // An OBJ whose faces have no class is a mesh like any other.
   const bool obj = extension_of(path) == "obj";
   if (obj ? formats::labels_every_face(path) : may_be_city_model(path)) {
-    const auto model = ingest::read_model(path);
+    const auto model = model_of(path);
     if (model) return info_of_model(path, *model, all_options);
     if (!obj) return model.failure();
   }

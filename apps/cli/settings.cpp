@@ -10,6 +10,8 @@
 #include "mansard/base/bound_text.hpp"
 #include "mansard/base/files.hpp"
 #include "mansard/base/text.hpp"
+#include "mansard/formats/attribute_choice.hpp"
+#include "mansard/formats/levels.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -168,6 +170,22 @@ void Settings::add_list(CLI::App& verb, const base::OptionList& list) {
   }
 }
 
+namespace {
+
+/// Options of `write` that are lists of names are read where files are written: too late to tell that one is wrong.
+auto check_lists(const std::vector<base::OptionList>& lists) -> base::Result<void> {
+  for (const auto& list : lists) {
+    if (list.module() != "write") continue;
+    if (const auto* names = list.find("attributes"))
+      if (auto choice = formats::AttributeChoice::of(names->get()); !choice) return choice.failure();
+    if (const auto* levels = list.find("lod"))
+      if (auto known = formats::check_lods(levels->get()); !known) return known;
+  }
+  return {};
+}
+
+}  // namespace
+
 auto Settings::apply(pipeline::Options& options) const -> base::Result<void> { return apply(menu_of(options)); }
 
 auto Settings::apply(Menu menu) const -> base::Result<void> {
@@ -185,6 +203,7 @@ auto Settings::apply(Menu menu) const -> base::Result<void> {
     const std::string value = given.flag && in_one_line(given.words).empty() ? "true" : in_one_line(given.words);
     append(wrong, pipeline::set_option(menu.lists, given.key, value), typed);
   }
+  if (wrong.empty()) append(wrong, check_lists(menu.lists));
   return result_of(std::move(wrong));
 }
 

@@ -113,9 +113,10 @@ auto attempt(const detail::Source& source, const model::Plan& plan, const Option
   }
   constexpr double worth_telling = 0.01;  // m; decides about the warning alone
   if (solid && footprint.moved > worth_telling)
-    warnings.push_back(base::warning(
-        "extrude-straightened",
-        "shallow turns were straightened; the outline moved by up to " + base::to_text(footprint.moved, 3) + " m"));
+    warnings.push_back(
+        base::warning("extrude-straightened", "shallow turns were straightened; the outline moved by up to " +
+                                                  base::to_text(footprint.moved, 3) +
+                                                  " m; lower --extrude-merge-angle to keep them"));
   const std::size_t wanted = edges_in(*outline) + source.corner_edges.size(), made = edges_in(footprint);
   if (solid && made < wanted)
     warnings.push_back(base::warning(

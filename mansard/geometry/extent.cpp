@@ -30,19 +30,24 @@ auto convex_hull(std::vector<Point2> points) -> std::vector<Point2> {
 auto extent_of(std::vector<Point2> points) -> Extent {
   const auto hull = convex_hull(std::move(points));
   if (hull.size() < 3) return {};
+  // A side of the smallest rectangle lies on the hull. Those on the three sides of a triangle have one area, and so
+  // have some of symmetric shapes: rounding must not choose among them.
+  constexpr double as_small = 1 + 1e-6;
+  std::vector<Extent> all;
   double least = std::numeric_limits<double>::infinity();
-  Extent out;
-  for (std::size_t i = 0; i < hull.size(); ++i) {  // a side of the smallest rectangle lies on the hull
+  for (std::size_t i = 0; i < hull.size(); ++i) {
     const Point2 along = normalised(hull[(i + 1) % hull.size()] - hull[i]), across = left_of(along);
     double from = 0, to = 0, deep = 0;
     for (const auto p : hull) {
       const double a = dot(along, p - hull[i]);
       from = std::min(from, a), to = std::max(to, a), deep = std::max(deep, dot(across, p - hull[i]));
     }
-    if ((to - from) * deep >= least) continue;
-    least = (to - from) * deep;
-    out = {std::min(to - from, deep), std::max(to - from, deep)};
+    all.push_back({std::min(to - from, deep), std::max(to - from, deep)});
+    least = std::min(least, (to - from) * deep);
   }
+  Extent out{std::numeric_limits<double>::infinity(), 0};
+  for (const auto& one : all)
+    if (one.width * one.length <= as_small * least && one.width < out.width) out = one;
   return out;
 }
 

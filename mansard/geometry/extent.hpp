@@ -11,8 +11,8 @@ struct Extent {
   double width = 0, length = 0;  ///< m; width ≤ length
 };
 
-/// The sides of the rectangle of the smallest area around the points; 0 for points on one line. Cost: O(n log n) and
-/// O(n) for each corner of their hull.
+/// The sides of the rectangle of the smallest area around the points, of several with one area the narrowest; 0 for
+/// points on one line. Cost: O(n log n) and O(n) for each corner of their hull.
 [[nodiscard]] auto extent_of(std::vector<Point2> points) -> Extent;
 
 }  // namespace mansard::geometry

@@ -257,8 +257,9 @@ auto share_half(const Box2& a, const Box2& b) -> bool {
 }
 
 /// What would make mesh and footprints overlap: another axis that is up, another unit, or x and y swapped. Empty for
-/// none of them. `mesh`: as read, with the offset.
-auto mended(const Box2& footprints, const geometry::Box3& mesh, const std::array<double, 3>& offset) -> std::string {
+/// none of them. `mesh`: as read, with the offset; `y_up`: it was turned when it was read.
+auto mended(const Box2& footprints, const geometry::Box3& mesh, const std::array<double, 3>& offset, bool y_up)
+    -> std::string {
   using geometry::Point3;
   const Point3 by{offset[0], offset[1], offset[2]};
   const auto overlap = [&](auto change) {
@@ -280,9 +281,12 @@ auto mended(const Box2& footprints, const geometry::Box3& mesh, const std::array
       Way{1000, "the mesh is in kilometres, and they do in metres: multiply its coordinates by 1000"}};
   if (overlap([](Point3 p) { return Point3{p.y, p.x, p.z}; }))
     return "with x and y of one swapped they do: correct its axis order";
-  if (overlap([](Point3 p) { return Point3{p.x, -p.z, p.y}; })) return "with y up they do: give --up y";
+  if (overlap([](Point3 p) { return Point3{p.x, -p.z, p.y}; }))
+    return y_up ? "with its z axis down they do: turn it by 180° about its x axis and give --up z"
+                : "with y up they do: give --up y";
   if (overlap([](Point3 p) { return Point3{p.x, p.z, -p.y}; }))
-    return "with the z axis of its file up they do: give --up z, or turn the mesh if it is given";
+    return y_up ? "with z up they do: give --up z"
+                : "with y up and mirrored they do: multiply its z by -1 and give --up y";
   if (overlap([](Point3 p) {
         return Point3{-p.z, p.y, p.x};
       }) ||
@@ -300,12 +304,12 @@ auto mended(const Box2& footprints, const geometry::Box3& mesh, const std::array
   return {};
 }
 
-auto check_overlap(const Ground& ground, const geometry::Box3& box, const Options& options, const std::string& subject)
-    -> base::Result<void> {
+auto check_overlap(const Ground& ground, const geometry::Box3& box, const Options& options,
+                   const std::vector<model::InputFile>& inputs, const std::string& subject) -> base::Result<void> {
   const Box2 mesh = box.plan();
   if (ground.box.empty() || ground.box.overlaps(mesh)) return {};
   const std::string& crs = ground.way.name;
-  const auto how = mended(ground.box, box, options.mesh_offset);
+  const auto how = mended(ground.box, box, options.mesh_offset, is_read_y_up(options, inputs));
   return base::error("ingest-no-overlap",
                      "mesh and footprints do not overlap: the mesh lies in " + in_words(mesh) + ", the footprints in " +
                          in_words(ground.box) + (crs.empty() ? "" : " (" + crs.substr(0, crs.find('[')) + ")") +
@@ -331,7 +335,8 @@ auto take_terrain(const Options& options, const Box2& around, std::optional<clou
     scene.terrain = std::make_shared<const model::HeightGrid>(std::move(grid));
     return {};
   }
-  auto terrain = formats::read_terrain(options.terrain, scene.frame, around);
+  constexpr double beside = 100;  // m; --terrain-margin may ask for more, where the terrain is continued
+  auto terrain = formats::read_terrain(options.terrain, scene.frame, around.grown(beside));
   if (!terrain) return terrain.error();
   scene.terrain = std::make_shared<const model::HeightGrid>(std::move(*terrain));
   auto input = formats::input_file(options.terrain);
@@ -470,7 +475,7 @@ auto read(const std::vector<std::filesystem::path>& mesh_paths, const std::files
             " triangles has corners that exist and are finite and near enough to zero; export the mesh again. "
             "Coordinates in millimetres must be multiplied by 0.001",
         mesh_name);
-  if (auto met = check_overlap(*ground, mesh_box, options, subject); !met) return met.error();
+  if (auto met = check_overlap(*ground, mesh_box, options, meshes->inputs, subject); !met) return met.error();
   model::Scene scene;
   scene.frame.crs = ground->way.name;
   scene.frame.origin =
@@ -543,10 +548,9 @@ auto read_alone(const std::filesystem::path& path, const Options& options, const
   constexpr double far = std::numeric_limits<double>::infinity();
   scene.inputs = std::move(file->inputs);
   if (!options.terrain.empty()) {
-    constexpr double around = 100;  // m; --terrain-margin may ask for more, where the terrain is continued
     const Point2 origin{static_cast<double>(scene.frame.origin[0]), static_cast<double>(scene.frame.origin[1])};
     const Box2 local{box.least - origin, box.most - origin};
-    if (auto taken = take_terrain(options, local.grown(around), std::nullopt, scene); !taken) return taken.error();
+    if (auto taken = take_terrain(options, local, std::nullopt, scene); !taken) return taken.error();
   }
   append(scene.warnings, std::move(file->warnings));
   append(scene.warnings, way->warnings);
@@ -644,6 +648,15 @@ auto option_list(Options& o) -> base::OptionList {
               "processed alone.")
       .advanced("about 13 kB a footprint with all that is made of it; docs/city.md");
   return list;
+}
+
+auto is_read_y_up(const Options& options, const std::vector<model::InputFile>& inputs) -> bool {
+  if (options.up != formats::UpAxis::automatic) return options.up == formats::UpAxis::y;
+  constexpr std::array usually{".glb", ".gltf", ".b3dm", ".dae", ".fbx"};
+  return std::ranges::any_of(inputs, [&](const auto& input) {
+    return std::ranges::find(usually, formats::extension_of(input.path)) != usually.end() ||
+           std::filesystem::path(input.path).filename() == "tileset.json";
+  });
 }
 
 auto box_of(const Options& options) -> base::Result<std::optional<Box2>> {

@@ -45,6 +45,10 @@ struct Options {
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 
+/// Whether the mesh of these files was turned when it was read, since y is up in it: by the option, else by what their
+/// formats usually are.
+[[nodiscard]] auto is_read_y_up(const Options& options, const std::vector<model::InputFile>& inputs) -> bool;
+
 /// Options::bbox; none where it is four zeros. Fails with "ingest-bbox".
 [[nodiscard]] auto box_of(const Options& options) -> base::Result<std::optional<geometry::Box2>>;
 

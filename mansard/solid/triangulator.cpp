@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <unordered_map>
 
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/geometry/predicates.hpp"
@@ -152,6 +152,7 @@ auto Triangulator::is_simple() -> bool {
 auto Triangulator::holes_lie_inside() const -> bool {
   std::vector<geometry::Ring> rings;
   std::vector<std::vector<std::uint32_t>> vertices;
+  std::vector<geometry::Box2> boxes;
   for (std::size_t l = 0; l + 1 < first_.size(); ++l) {
     rings.emplace_back();
     vertices.emplace_back();
@@ -161,8 +162,10 @@ auto Triangulator::holes_lie_inside() const -> bool {
     }
     if ((geometry::signed_area(rings.back()) > 0) != (l == 0)) return false;
     std::ranges::sort(vertices.back());
+    boxes.push_back(geometry::Box2::of(rings.back()));
   }
   const auto within = [&](std::size_t inner, std::size_t outer) {
+    if (!boxes[outer].contains(rings[inner].front())) return false;  // nor is it shared
     for (std::uint32_t v = first_[inner]; v < first_[inner + 1]; ++v)
       if (!std::ranges::binary_search(vertices[outer], corners_[v].vertex))
         return geometry::contains(rings[outer], corners_[v].at);
@@ -175,6 +178,87 @@ auto Triangulator::holes_lie_inside() const -> bool {
   }
   return true;
 }
+
+/// Corners and edges of a face in square cells, about as many as corners, so that what is near is found without going
+/// through all.
+class Triangulator::Near {
+ public:
+  Near(const geometry::Box2& box, std::size_t corners) : least_(box.least) {
+    const double width = box.most.x - box.least.x, height = box.most.y - box.least.y;
+    side_ = std::max(std::sqrt(width * height / static_cast<double>(corners)),
+                     std::max(width, height) / static_cast<double>(corners));
+    columns_ = static_cast<std::size_t>(width / side_) + 1;
+    rows_ = static_cast<std::size_t>(height / side_) + 1;
+    corners_.resize(columns_ * rows_);
+    edges_.resize(columns_ * rows_);
+    farthest_ = 2 * (width + height);
+  }
+
+  void add_corner(Point2 at, std::uint32_t corner) {
+    corners_[column(at.x) + row(at.y) * columns_].push_back({at, corner});
+  }
+  /// From the vertex `a` to `b`.
+  void add_edge(const geometry::Segment2& edge, std::uint32_t a, std::uint32_t b) {
+    constexpr std::size_t many = 64;  // cells: the few that are longer are looked at always
+    const auto box = geometry::Box2::of(edge);
+    const std::size_t x0 = column(box.least.x), x1 = column(box.most.x), y0 = row(box.least.y), y1 = row(box.most.y);
+    if ((x1 - x0 + 1) * (y1 - y0 + 1) > many) return long_.push_back({edge, box, a, b});
+    for (std::size_t y = y0; y <= y1; ++y)
+      for (std::size_t x = x0; x <= x1; ++x) edges_[x + y * columns_].push_back({edge, box, a, b});
+  }
+
+  /// The nearest corner that is wanted, of those equally near the one with the smallest number; `none` for none.
+  template <class Wanted>
+  [[nodiscard]] auto nearest(Point2 at, const Wanted& wanted) const -> std::uint32_t {
+    std::vector<std::pair<double, std::uint32_t>> found;
+    double before = -1;
+    for (double reach = side_; before < farthest_; before = reach, reach *= 2) {
+      found.clear();
+      const double with_rounding = 1.001 * reach;
+      for (std::size_t y = row(at.y - with_rounding); y <= row(at.y + with_rounding); ++y)
+        for (std::size_t x = column(at.x - with_rounding); x <= column(at.x + with_rounding); ++x)
+          for (const auto& [place, corner] : corners_[x + y * columns_])
+            if (const double d = length(place - at); d > before && d <= reach) found.emplace_back(d, corner);
+      std::ranges::sort(found);
+      for (const auto& [d, corner] : found)
+        if (wanted(corner)) return corner;
+    }
+    return none;
+  }
+
+  /// Whether an edge that ends at neither vertex meets the sight.
+  [[nodiscard]] auto blocks(const geometry::Segment2& sight, std::uint32_t a, std::uint32_t b) const -> bool {
+    const auto box = geometry::Box2::of(sight);
+    const auto meets = [&](const Edge& edge) {
+      if (edge.a == a || edge.a == b || edge.b == a || edge.b == b) return false;
+      return box.overlaps(edge.box) && geometry::meet(sight, edge.edge);
+    };
+    if (std::ranges::any_of(long_, meets)) return true;
+    for (std::size_t y = row(box.least.y); y <= row(box.most.y); ++y)
+      for (std::size_t x = column(box.least.x); x <= column(box.most.x); ++x)
+        if (std::ranges::any_of(edges_[x + y * columns_], meets)) return true;
+    return false;
+  }
+
+ private:
+  struct Edge {
+    geometry::Segment2 edge;
+    geometry::Box2 box;
+    std::uint32_t a, b;
+  };
+  [[nodiscard]] auto index(double off, std::size_t count) const -> std::size_t {
+    return static_cast<std::size_t>(std::clamp(off / side_, 0.0, static_cast<double>(count - 1)));
+  }
+  [[nodiscard]] auto column(double x) const -> std::size_t { return index(x - least_.x, columns_); }
+  [[nodiscard]] auto row(double y) const -> std::size_t { return index(y - least_.y, rows_); }
+
+  Point2 least_;
+  double side_ = 1, farthest_ = 0;
+  std::size_t columns_ = 1, rows_ = 1;
+  std::vector<std::vector<std::pair<Point2, std::uint32_t>>> corners_;
+  std::vector<std::vector<Edge>> edges_;
+  std::vector<Edge> long_;
+};
 
 /// Makes one loop of all: each hole, from the left, is tied by a double edge from its leftmost corner to the nearest
 /// corner that it sees of what is already tied. A hole that shares a vertex is tied there.
@@ -192,52 +276,47 @@ auto Triangulator::bridge_holes() -> bool {
   }
   std::ranges::sort(holes, [](const Hole& a, const Hole& b) { return a.at != b.at ? a.at < b.at : a.loop < b.loop; });
 
-  std::vector<std::uint32_t> tied;  // corners of the one loop
-  for (std::uint32_t v = 0; v < first_[1]; ++v) tied.push_back(v);
-  std::vector<std::pair<double, std::uint32_t>> near;
+  geometry::Box2 box;
+  for (const Corner& c : corners_) box.add(c.at);
+  Near near(box, corners_.size());
+  for (const Corner& c : corners_) near.add_edge({c.at, corners_[c.next].at}, c.vertex, corners_[c.next].vertex);
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> tied;  // corners of the one loop, by vertex
+  const auto tie = [&](std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t v = from; v < to; ++v) {
+      tied[corners_[v].vertex].push_back(v);
+      near.add_corner(corners_[v].at, v);
+    }
+  };
+  tie(0, first_[1]);
   for (const Hole& hole : holes) {
     std::uint32_t from = none, to = none;
     for (std::uint32_t v = first_[hole.loop]; v < first_[hole.loop + 1] && to == none; ++v)
-      for (const std::uint32_t t : tied)
-        if (corners_[t].vertex == corners_[v].vertex && opens_towards(t, corners_[corners_[v].next].at)) {
-          from = v;
-          to = t;
-          break;
-        }
+      if (const auto same = tied.find(corners_[v].vertex); same != tied.end())
+        for (const std::uint32_t t : same->second)
+          if (opens_towards(t, corners_[corners_[v].next].at)) {
+            from = v;
+            to = t;
+            break;
+          }
     if (to == none) {
       from = hole.corner;
-      near.clear();
-      for (const std::uint32_t t : tied) near.emplace_back(length(corners_[t].at - corners_[from].at), t);
-      // The nearest is nearly always seen, so that few come off the heap.
-      std::ranges::make_heap(near, std::greater());
-      for (; to == none && !near.empty(); near.pop_back()) {
-        std::ranges::pop_heap(near, std::greater());
-        if (sees(from, near.back().second)) to = near.back().second;
-      }
+      to = near.nearest(corners_[from].at, [&](std::uint32_t t) { return sees(from, t, near); });
     }
     if (to == none) return false;
     const auto before = static_cast<std::uint32_t>(corners_.size());
     bridge(from, to);
-    for (std::uint32_t v = first_[hole.loop]; v < first_[hole.loop + 1]; ++v) tied.push_back(v);
-    for (std::uint32_t v = before; v < corners_.size(); ++v) tied.push_back(v);
+    tie(first_[hole.loop], first_[hole.loop + 1]);
+    tie(before, static_cast<std::uint32_t>(corners_.size()));
+    if (corners_[from].vertex != corners_[to].vertex)
+      near.add_edge({corners_[from].at, corners_[to].at}, corners_[from].vertex, corners_[to].vertex);
   }
   return true;
 }
 
 /// Whether corner b lies in the wedge of the interior at a, and no edge of any loop lies between.
-auto Triangulator::sees(std::uint32_t a, std::uint32_t b) const -> bool {
+auto Triangulator::sees(std::uint32_t a, std::uint32_t b, const Near& near) const -> bool {
   if (!opens_towards(a, corners_[b].at) || !opens_towards(b, corners_[a].at)) return false;
-  const geometry::Segment2 sight{corners_[a].at, corners_[b].at};
-  const auto box = geometry::Box2::of(sight);
-  return std::ranges::none_of(corners_, [&](const Corner& from) {
-    const Corner& to = corners_[from.next];
-    for (const std::uint32_t end : {corners_[a].vertex, corners_[b].vertex})
-      if (from.vertex == end || to.vertex == end) return false;
-    geometry::Box2 edge;
-    edge.add(from.at);
-    edge.add(to.at);
-    return box.overlaps(edge) && geometry::meet(sight, {from.at, to.at});
-  });
+  return !near.blocks({corners_[a].at, corners_[b].at}, corners_[a].vertex, corners_[b].vertex);
 }
 
 auto Triangulator::opens_towards(std::uint32_t v, Point2 q) const -> bool {

@@ -44,7 +44,8 @@ class Triangulator {
   auto bridge_holes() -> bool;
   void bridge(std::uint32_t from, std::uint32_t to);
   [[nodiscard]] auto opens_towards(std::uint32_t v, geometry::Point2 q) const -> bool;
-  [[nodiscard]] auto sees(std::uint32_t a, std::uint32_t b) const -> bool;
+  class Near;
+  [[nodiscard]] auto sees(std::uint32_t a, std::uint32_t b, const Near& near) const -> bool;
   auto clip_ears() -> bool;
   void gather_reflex();
   [[nodiscard]] auto is_ear(std::uint32_t v) const -> bool;

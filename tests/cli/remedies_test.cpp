@@ -3,50 +3,13 @@
 #include <regex>
 #include <sstream>
 
-#include "cli/command.hpp"
+#include "cli/remedies.hpp"
 
 namespace mansard::cli {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
-
-class Remedies : public Command {
+class Remedies : public RemedyTest {
  protected:
-  void SetUp() override {
-    Command::SetUp();
-    put("two.geojson", with_ids(R"({"id":"a","other":"p"})", R"({"id":"b","other":"q"})"));
-    put("table.csv", "key,colour\np,red\nq,blue\n");
-  }
-
-  static auto with_ids(const std::string& first, const std::string& second) -> std::string {
-    const auto feature = [](const std::string& properties, const std::string& ring) {
-      return R"({"type":"Feature","properties":)" + properties + R"(,"geometry":)" + polygon(ring) + "}";
-    };
-    return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::28992"}},)"
-           R"("features":[)" +
-           feature(first, square) + "," + feature(second, "[20,0],[30,0],[30,8],[20,8],[20,0]") + "]}";
-  }
-
-  /// In commands, words with an @ are files.
-  auto filled(std::string arguments) const -> std::string {
-    const std::pair<const char*, std::string> places[] = {
-        {"@MESH", at("house.obj")},  {"@PRINTS", at("house.geojson")}, {"@TWO", at("two.geojson")},
-        {"@TABLE", at("table.csv")}, {"@MODEL", at("m.city.json")},    {"@OUT", at("out")},
-        {"@HERE/", at("")}};
-    for (const auto& [word, place] : places) arguments = std::regex_replace(arguments, std::regex(word), place);
-    return arguments;
-  }
-
-  static auto zeros(int count) -> std::string {
-    std::string out;
-    for (int i = 0; i < count; ++i) out += "0 ";
-    return out + "\n";
-  }
-  /// A terrain of zeros, 240 m wide, that begins at (`at`, `at`).
-  static auto grid(const std::string& at) -> std::string {
-    return "ncols 40\nnrows 40\nxllcorner " + at + "\nyllcorner " + at + "\ncellsize 6\n" + zeros(1600);
-  }
   static auto folder(const std::string& name) -> std::string {
     return "<Folder><name>" + name +
            "</name><Placemark><Polygon><outerBoundaryIs><LinearRing><coordinates>4,52 4.0002,52 4.0002,52.0001 "
@@ -72,32 +35,6 @@ class Remedies : public Command {
       out += line + "\n";
     }
     return out;
-  }
-
-  struct Case {
-    std::string command;  ///< says `code`, and `words`
-    std::string code, words;
-    std::string instead;  ///< a whole command, what is added where it begins with "-", or `said`: works, and does not
-                          ///< say `words`
-  };
-  static constexpr const char* said = "";  ///< the command that the message names
-  void try_all(const std::vector<Case>& cases) const {
-    ASSERT_EQ(run(filled("extrude -q @PRINTS --default-height 6 -o @MODEL")).exit, 0);
-    for (const auto& [command, code, words, instead] : cases) {
-      SCOPED_TRACE(command);
-      const auto without = run(filled(command));
-      EXPECT_THAT(without.err, HasSubstr("[" + code + "]"));
-      EXPECT_THAT(without.err, HasSubstr(words));
-      fs::remove_all(at("out"));
-      auto told = filled(instead.starts_with("-") ? command + " " + instead : instead);
-      std::smatch named;
-      if (instead == said && std::regex_search(without.err, named, std::regex("run: mansard (.*)"))) told = named[1];
-      ASSERT_NE(told, "");
-      const auto remedied = run(told);
-      EXPECT_TRUE(remedied.exit == 0 || remedied.exit == 1) << told << ": " << remedied.exit << " " << remedied.err;
-      EXPECT_THAT(remedied.err, Not(HasSubstr(words)));
-      fs::remove_all(at("out"));
-    }
   }
 };
 

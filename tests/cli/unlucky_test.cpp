@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "cli/command.hpp"
+#include "cli/las.hpp"
 
 namespace mansard::cli {
 namespace {
@@ -120,6 +121,14 @@ TEST_F(Unlucky, more_attributes_than_columns_are_kept) {
   const auto back = run("convert -q " + at("out/model.gpkg") + " -o " + at("back.city.json"));
   EXPECT_EQ(back.exit, 0) << back.err;
   EXPECT_EQ(objects("back.city.json")["a"]["attributes"]["n2499"], 2499);
+}
+
+TEST_F(Unlucky, lists_of_names_that_are_wrong_are_errors_before_any_work) {
+  for (const char* wrong : {"--attributes street", "--lod 7"}) {
+    SCOPED_TRACE(wrong);
+    expect_refusal(reconstruct(at("house.obj"), at("house.geojson"), wrong), 4, "option-value");
+    EXPECT_FALSE(fs::exists(at("out/.mansard")));
+  }
 }
 
 TEST_F(Unlucky, one_formats_limit_is_not_the_others_loss) {
@@ -250,39 +259,7 @@ TEST_F(Unlucky, names_of_no_crs_are_errors_that_say_what_to_give) {
 }
 
 TEST_F(Unlucky, a_cloud_whose_header_has_no_box_is_local_like_a_mesh) {
-  // LAS 1.2 with point format 0: a house of 12 by 8 m on a field of 30 m, and zeros for the box in the header.
-  const auto put_value = [](std::string& bytes, auto value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  std::string points;
-  std::uint32_t count = 0;
-  for (int x = -9000; x <= 21000; x += 250)
-    for (int y = -9000; y <= 17000; y += 250) {
-      const bool inside = x >= 0 && x <= 12000 && y >= 0 && y <= 8000;
-      put_value(points, std::int32_t{x});
-      put_value(points, std::int32_t{y});
-      put_value(points, std::int32_t{inside ? 6000 : 0});
-      put_value(points, std::uint16_t{0});
-      points += char{9};
-      points += static_cast<char>(inside ? 6 : 2);
-      points += std::string(4, '\0');
-      ++count;
-    }
-  std::string las = "LASF" + std::string(20, '\0') + std::string("\1\2", 2) + std::string(64, '\0');
-  put_value(las, std::uint16_t{1});
-  put_value(las, std::uint16_t{2026});
-  put_value(las, std::uint16_t{227});
-  put_value(las, std::uint32_t{227});
-  put_value(las, std::uint32_t{0});
-  las += char{0};
-  put_value(las, std::uint16_t{20});
-  put_value(las, count);
-  put_value(las, count);
-  las += std::string(16, '\0');
-  for (int i = 0; i < 3; ++i) put_value(las, 0.001);
-  las += std::string(9 * 8, '\0');
-  ASSERT_EQ(las.size(), 227);
-  put("a.las", las + points);
+  put("a.las", las_of(house_points(0, 0), 0, false));
   put("none.geojson", geojson(polygon(square), ""));
   const auto outcome = reconstruct(at("a.las"), at("none.geojson"));
   EXPECT_EQ(outcome.exit, 0) << outcome.err;

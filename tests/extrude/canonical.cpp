@@ -150,6 +150,12 @@ TEST(Canonical, straightens_a_bulge_but_not_a_bend) {
   EXPECT_EQ(bulge.plan.outer.points.size(), 4U);
   EXPECT_EQ(bulge.straightened, 1U);
   EXPECT_NEAR(bulge.moved, 0.02, 1e-3);
+  // tried: lower --extrude-merge-angle to keep them
+  extrude::Options exact;
+  exact.merge_angle = 0;
+  const Canonical kept = made(plan({{0, 0}, {5, -0.02}, {10, 0}, {10, 6}, {0, 6}}, {hip}), exact);
+  EXPECT_EQ(kept.plan.outer.points.size(), 5U);
+  EXPECT_TRUE(kept.reasons.empty());
   EXPECT_EQ(made(plan({{0, 0}, {5, -0.03}, {10, 0}, {10, 6}, {0, 6}}, {hip})).plan.outer.points.size(), 5U);
 }
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace {
 
@@ -15,6 +17,19 @@ TEST(Extent, is_that_of_a_turned_rectangle) {
   const auto extent = extent_of({at(0, 0), at(5, 0), at(5, 0.5), at(0, 0.5), at(2, 0.25)});
   EXPECT_NEAR(extent.width, 0.5, 1e-12);
   EXPECT_NEAR(extent.length, 5, 1e-12);
+}
+
+TEST(Extent, of_a_triangle_has_its_least_height_as_width_wherever_it_is) {
+  // The rectangles on its three sides have one area.
+  const double height = 1.2;
+  for (int turn = 0; turn < 60; ++turn)
+    for (int first = 0; first < 3; ++first) {
+      const double c = std::cos(0.1 * turn), s = std::sin(0.1 * turn);
+      std::vector<Point2> corners{{0, 0}, {2, 0}, {0.9, height}};
+      std::ranges::rotate(corners, corners.begin() + first);
+      for (auto& p : corners) p = {c * p.x - s * p.y + 7, s * p.x + c * p.y - 3};
+      EXPECT_NEAR(extent_of(corners).width, height, 1e-12) << turn;
+    }
 }
 
 TEST(Extent, of_points_on_a_line_is_none) {

@@ -1,7 +1,8 @@
 // Checks that the remedy of every message that names an option or a command of the program is tried by a test.
 //   node remedies.mjs REPOSITORY MANSARD [list]     list: prints those that are not
-// A remedy is tried where a case of tests/cli has words of the message, and a command line with what the message says. Those
-// that no test of this machine can try are listed below with the reason; one that is tried must not be listed.
+// A remedy is tried where a case of tests/cli has words of the message and a command line with what the message says, or
+// where any test says "tried: " and words of the message. Those that no test of this machine can try are in
+// untried_remedies.txt with the reason; one that is tried must not be there.
 import fs from "node:fs";
 import path from "node:path";
 import { of_program, of_sources } from "./program_texts.mjs";
@@ -13,8 +14,9 @@ const text_of = (literals) => [...literals.matchAll(/"((?:\\.|[^"\\])*)"/g)].map
 function words_tried() {
   const literal = String.raw`((?:"(?:\\.|[^"\\])*"\s*)+)`;
   const all = [];
-  for (const file of ["remedies_test.cpp", "unlucky_test.cpp"]) {
-    const source = fs.readFileSync(path.join(root, "tests/cli", file), "utf8");
+  const files = fs.readdirSync(path.join(root, "tests"), { recursive: true }).filter((file) => file.endsWith(".cpp"));
+  for (const file of files) {
+    const source = fs.readFileSync(path.join(root, "tests", file), "utf8");
     for (const found of source.matchAll(new RegExp(String.raw`\{${literal},\s*${literal},\s*${literal},\s*(?:said|${literal})\}`, "g")))
       all.push(text_of(found[3]));
     for (const found of source.matchAll(new RegExp(String.raw`// tried: (.*)`, "g"))) all.push(found[1]);

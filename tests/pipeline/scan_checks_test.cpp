@@ -216,6 +216,14 @@ TEST(CheckScan, tells_digits_that_are_lost_where_they_matter) {
   ASSERT_FALSE(metres.findings.empty());
   EXPECT_EQ(metres.findings[0].code, "scan-digits");
   EXPECT_EQ(metres.findings[0].severity, base::Severity::error);
+  // tried: as 32-bit floats have at such coordinates; export the scan with an origin near it
+  const auto single = [](double away) {
+    return [away](Point3 p) { return Point3{p.x, static_cast<float>(p.y + away) - away, p.z}; };
+  };
+  EXPECT_THAT(codes_of(checked(Street(7).change(single(5e6)))), testing::Contains("scan-digits"));
+  Options options;
+  options.ingest.mesh_offset = {0, 5e6, 0};
+  EXPECT_THAT(codes_of(checked(Street(7).change(single(0)), options)), IsEmpty());
 }
 
 TEST(CheckScan, tells_that_no_ground_is_seen) {

@@ -65,6 +65,7 @@ TEST_F(Access, refuses_other_hosts_and_pages_of_other_servers_even_with_the_toke
     headers.emplace(name, value);
     return server_.call("GET", "/api/status", {}, headers);
   };
+  // tried: open the link that 'mansard serve' printed
   EXPECT_EQ(with("Host", "evil.example").code(), "server-host");
   EXPECT_EQ(with("Host", "evil.example:" + std::to_string(server_.port())).status, 403);
   EXPECT_EQ(with("Host", "localhost:" + std::to_string(server_.port())).status, 200);
@@ -253,6 +254,18 @@ TEST(Serve, reports_why_it_cannot_start) {
   Running taken(folder / "other", {"--port", std::to_string(first.port())});
   EXPECT_THAT(taken.complaint(), HasSubstr("error[server-port]"));
   EXPECT_EQ(taken.wait(), 2);
+  {
+    // tried: cannot listen: the port is in use
+    const Running free(folder / "other", {"--port", "0"});
+    EXPECT_EQ(free.get("/api/status").status, 200);
+  }
+  // tried: the project is open in another 'mansard serve'; use its page, or stop it first
+  EXPECT_EQ(first.get("/api/status").status, 200);
+  EXPECT_EQ(first.interrupt(), 0);
+  {
+    const Running next(folder / "project");
+    EXPECT_EQ(next.get("/api/status").status, 200);
+  }
   write(folder / "file", "");
   Running file(folder / "file");
   EXPECT_THAT(file.complaint(), HasSubstr("error[server-folder]"));

@@ -210,6 +210,7 @@ TEST(Inputs, of_runs_cannot_change) {
   }
   const Running again(folder / "project");
   again.settle();
+  // tried: this input has changed since the runs of the project were made from it
   EXPECT_EQ(failure(again), "server-changed");
   EXPECT_EQ(again.get("/api/scene").code(), "server-no-scene");
   EXPECT_EQ(again.get("/api/runs/run-1/buildings").status, 200) << "the models are still shown";
@@ -303,6 +304,7 @@ TEST_F(Runs, fix_the_inputs_of_the_project_until_they_are_deleted) {
   server.settle();
   const std::string b9 = std::string(MANSARD_DATA) + "/b9/";
   const Json other{{"meshes", {b9 + "mesh.off"}}, {"footprints", b9 + "footprints.geojson"}};
+  // tried: the project has runs with other inputs; delete them
   EXPECT_EQ(server.post("/api/project/inputs", other).code(), "server-inputs");
   EXPECT_EQ(server.call("DELETE", "/api/runs/run-1").status, 200);
   EXPECT_TRUE(fs::exists(project() / "trash/run-1/plans.json"));

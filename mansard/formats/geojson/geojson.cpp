@@ -179,13 +179,18 @@ class GeoJsonReader : public CityReader {
       if (line == "]}") return std::optional<model::Building>();
       if (line.ends_with(',')) line.pop_back();
       const auto record = record_in(line);
-      if (!record) return no_plans("a line of it is not a Feature as mansard writes them", name_);
+      if (!record)
+        return base::error(
+            "write-read-plans",
+            "a line of it is not a Feature as mansard writes them; give the file as mansard wrote it, or "
+            "take out its member 'mansard', and 'mansard extrude' reads the footprints that are left",
+            name_);
       if (record->empty()) continue;  // a further part
       auto building = read_building_record(*record, name_);
       if (!building) return building.error();
       return std::optional(*std::move(building));
     }
-    return no_plans("it is cut short", name_);
+    return base::error("write-read-plans", "it is cut short; copy it again, as mansard wrote it", name_);
   }
 
  private:

@@ -283,7 +283,7 @@ auto AttributeColumns::warning(const std::string& subject) const -> std::optiona
                        "there are " + std::to_string(columns_.size()) + " attributes, and a table has at most " +
                            std::to_string(most) + " columns for them; the others, from '" + columns_[most].name +
                            "' on, are together in the column '" + other_attributes +
-                           "' as JSON. --attributes chooses those that are written",
+                           "' as JSON. For a column each, give footprints with fewer attributes",
                        subject);
 }
 

@@ -281,7 +281,8 @@ auto MeshReading::surface_of_clouds(const std::optional<Box2>& within, const bas
   if (const auto extent = area.most - area.least; !area.empty() && extent.x * extent.y > most_ground)
     return base::error("ingest-memory",
                        "ground points are " + base::to_text(length(extent) / 1000, 0) +
-                           " km apart; clouds of different CRSs need --crs, and points far off --bbox",
+                           " km apart; give --crs where the clouds name different CRSs, leave out files that are "
+                           "elsewhere, or give footprints and the part of them to read with --bbox",
                        subject);
   out.ground = cloud::join(grounds, options_.cloud.ground_reach);
   for (auto& tile : grounds) tile.heights = {};

@@ -23,20 +23,11 @@ struct Candidate {
   std::function<Point3(Point3)> change;  ///< of coordinates as read, without offset
 };
 
-auto is_y_up(const model::Scene& scene, const Options& options) -> bool {
-  if (options.ingest.up != formats::UpAxis::automatic) return options.ingest.up == formats::UpAxis::y;
-  return std::ranges::any_of(scene.inputs, [](const auto& input) {
-    const auto extension = formats::extension_of(input.path);
-    return extension == ".glb" || extension == ".gltf" || extension == ".b3dm" ||
-           std::filesystem::path(input.path).filename() == "tileset.json";
-  });
-}
-
 auto candidates_of(const model::Scene& scene, const Options& options, Point3 middle) -> std::vector<Candidate> {
   std::vector<Candidate> out;
-  const bool y_up = is_y_up(scene, options);
+  const bool y_up = ingest::is_read_y_up(options.ingest, scene.inputs);
   out.push_back({"scan-axis",
-                 y_up ? std::string("its y axis is down; turn it over, or multiply its y by -1")
+                 y_up ? std::string("its z axis is down; turn it by 180° about its x axis and give --up z")
                       : std::string("its y axis is up; give --up y"),
                  [](Point3 p) {
                    return Point3{p.x, -p.z, p.y};
