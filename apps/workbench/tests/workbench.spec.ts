@@ -1547,6 +1547,20 @@ test("a roof plane over an oblique side is turned, given back to its wall, and m
     await expect.poll(planNow).toEqual(plain);
     await undo();
   });
+
+  await test.step("all of it can be reached at 1366 x 768 at 200 %", async () => {
+    await page.setViewportSize({ width: 683, height: 384 });
+    await handle.focus();
+    await page.keyboard.press("Enter");
+    await picture(page, "small-683-corner-edge");
+    const plan = (await page.getByRole("application", { name: /^Plan of/ }).boundingBox())!;
+    expect(plan.height).toBeGreaterThan(110);
+    await page.getByRole("textbox", { name: "Direction, degrees" }).click();
+    await page.getByRole("button", { name: "Remove corner edge" }).click();
+    await expect.poll(bearing).toBe(null);
+    await page.getByRole("button", { name: "Turn roof" }).click();
+    await expect.poll(bearing, { timeout: 30_000 }).toBeCloseTo(90, 0);
+  });
 });
 
 test("files are dropped on the view, and models of others are shown beside the run", async ({ clean: page, server, folder }) => {

@@ -38,7 +38,7 @@ export function isCornerEdge(ring: { points: readonly Point2[] }, edge: number):
   return between(unit(before)!, own, unit(after)!);
 }
 
-/** The corner that a corner edge stands at. */
+/** The corner of a corner edge. */
 export function cornerAt(ring: { points: readonly Point2[] }, edge: number): Point2 {
   const p = ring.points;
   const from = wrapped(p, edge);

@@ -55,7 +55,7 @@ import { bearingOf, capAbove, liftOf, turned, turnedAt, turnedBy, wallBeside, wi
 import { turning, turnRoof } from "./turning";
 import { snapDrawn, snapEdge, snapMove, snapTurn, snapVertex, surroundings, type Guide, type Snap, type Surroundings } from "./snap";
 import { useSheet } from "./use_sheet";
-import { contains, cross, distance, dot, middle, minus, nearestOn, plus, rotated, turnedLeft, unit } from "./vector";
+import { contains, cross, distance, dot, middle, minus, nearestOn, plus, rotated, times, turnedLeft, unit } from "./vector";
 
 interface Drag {
   kind: "pan" | Grip;
@@ -68,8 +68,8 @@ interface Drag {
   ridge: number; // of the part, above its base
   began: boolean;
 }
-/** A corner edge that is turned with the keyboard: as it was before. */
-interface Turning {
+/** The part as it was before a corner edge is turned. */
+interface BeforeTurn {
   plan: api.Plan;
   parts: api.NamedPlan[];
   ridge: number;
@@ -92,7 +92,7 @@ export function PlanEditor() {
   const sweeps = useSignal(false);
   const partner = useSignal("");
   const nudging = useRef(false);
-  const nudged = useRef<Turning | null>(null);
+  const nudged = useRef<BeforeTurn | null>(null);
   const held = useSignal<{ at: EdgeAt; forward: boolean } | null>(null);
   const key = `${run?.id} ${at?.building} ${at?.part}`;
   const { svg, sheet, pixels } = useSheet(key, () => (plan ? ringPoints(plan).flat() : []), 44);
@@ -184,7 +184,7 @@ export function PlanEditor() {
     spoken.value = `edge ${at.edge}: ${metres(distance(a, b))} long, moved ${shift}`;
   };
   /** The plan with another direction of a corner edge, shown and described. */
-  const turnedFrom = (from: Turning, at: EdgeAt, along: Point2, time: number) => {
+  const turnedFrom = (from: BeforeTurn, at: EdgeAt, along: Point2, time: number) => {
     const was = turnedAt(from.plan, at)!;
     const next = turned(from.plan, at, along);
     const is = turnedAt(next, at)!;
@@ -192,7 +192,9 @@ export function PlanEditor() {
     const bearing = `${bearingOf(is.along).toFixed(1)}°`;
     session.change(`roof of ${edgeName(next, at)} of ${part} turned to ${bearing}`, withPlan({ ...next, cap }, from.parts), time);
     const beside = wallBeside(next, at)!;
-    dimensions.value = [{ at: is.corner, text: `${bearing}, ${beside.degrees.toFixed(1)}° from edge ${beside.at.edge}` }];
+    // Outside of the corner, where neither its walls nor the handle are.
+    const outside = times(turnedLeft(is.along), -20 / now.scale);
+    dimensions.value = [{ at: plus(is.corner, outside), text: `${bearing}, ${beside.degrees.toFixed(1)}° from edge ${beside.at.edge}` }];
     spoken.value = `direction of the roof ${bearing}, ${beside.degrees.toFixed(1)}° from edge ${beside.at.edge}`;
   };
   const ridgeNow = () => ridgeOf(raisedPart.value) ?? 0;
@@ -609,7 +611,11 @@ export function PlanEditor() {
         structure={structure ? (structure.dormer ? "dormer" : "structure") : null}
         turn={turn}
         turning={turning.value}
-        onTurn={() => (turn === "remove" ? removeTurn(selectedAt!) : void turnRoof(selectedAt!))}
+        onTurn={() => {
+          spoken.value = "";
+          if (turn === "remove") removeTurn(selectedAt!);
+          else void turnRoof(selectedAt!);
+        }}
         touching={touching}
         partner={mergeable}
         onTool={choose}

@@ -31,7 +31,7 @@ describe("a corner edge", () => {
     expect(wallBeside(obliqueHouse(), at(3))!.degrees).toBeCloseTo(oblique, 3);
   });
 
-  it("is turned at its corner, and no further than its walls", () => {
+  it("is turned at its corner, and stays between its walls", () => {
     const plan = obliqueHouse();
     for (const by of [0.5, 3, -20]) {
       const next = turnedBy(plan, at(3), by);
@@ -209,7 +209,7 @@ describe("what else a plan with corner edges does", () => {
     expect(structuresOf(next.parts)).toMatchObject([{ dormer: { edge: 3 } }]);
     const front = next.parts.find((p) => p.id === "h-2")!.plan.outer.points;
     expect(bearingOf(minus(front[1]!, front[0]!))).toBeCloseTo(93, 2);
-    // Where the corner edge is removed, the dormer stands on the slope of the wall.
+    // Where the corner edge is removed, the dormer is on the slope of the wall.
     const back = replaced(made.parts, "h-1", withoutTurnedRoof(host, at(3))!.plan);
     expect(structuresOf(back.parts)).toMatchObject([{ dormer: { edge: 2 } }]);
   });

@@ -99,7 +99,7 @@ export interface Turned {
 /** From its wall, degrees; the usual direction of a new corner edge. */
 const usualTurn = 5;
 const trials = [2.5, 10, 15, 20];
-const widest = 20;
+const maximumTurn = 20;
 
 /** Plans in which the roof of a wall rises from a corner edge at one of its corners, and the wall goes up to it. The likeliest
  *  comes first: parallel or at a right angle to other walls, then 5° from its own. None where it has no roof, or no corner for it. */
@@ -132,7 +132,7 @@ export function withTurnedRoof(plan: Plan, at: EdgeAt): Turned[] {
       for (const { along, parallel } of tried) {
         const turn = degrees(sign * between(own, along));
         const held = clampedBetween(first, second, along);
-        if (!held || distance(held, along) > 1e-9 || turn < 0.5 || turn > widest + 1e-6) continue;
+        if (!held || distance(held, along) > 1e-9 || turn < 0.5 || turn > maximumTurn + 1e-6) continue;
         const corner: EdgeAt = { ring: at.ring, edge: start ? edge.edge : after(ring, edge.edge) };
         if (found.some((f) => sameEdge(f.at, corner) && distance(turnedAt(f.plan, f.at)!.along, along) < 1e-3)) continue;
         const made = madeAt(plan, edges, corner, along, profile);

@@ -81,7 +81,7 @@ function levelled(plan: Plan, at: EdgeAt, { plan: turned, at: corner }: Turned):
   });
 }
 
-/** The direction, gutter and pitch with the least error; null if the scan does not cover the building. */
+/** The direction, gutter and pitch with the minimum error; null if the scan does not cover the building. */
 async function fitted(
   run: string,
   building: string,
