@@ -1563,6 +1563,27 @@ test("a roof plane over an oblique side is turned, given back to its wall, and m
   });
 });
 
+test("the roof of a wall is turned without a scan, and Delete takes the corner edge away", async ({ clean: page, server, folder }) => {
+  await page.goto(server.link);
+  await page.getByLabel("Models that mansard wrote").fill(someModel(folder));
+  await page.getByRole("button", { name: "Open model" }).click();
+  await open(page, "street.city.json");
+  await pick(page, "right");
+  const planNow = async () => (await buildingOf(page, "right")).parts[0]!.plan;
+  const [edge] = pitched(await planNow());
+  await pickEdge(page, edge!);
+  await page.getByRole("button", { name: "Turn roof" }).click();
+  await expect.poll(async () => cornerEdgesOf(await planNow()).length).toBe(1);
+  const turned = await planNow();
+  expect(wallBeside(turned, cornerEdgesOf(turned)[0]!)!.degrees).toBeCloseTo(5, 1);
+  expect((await buildingOf(page, "right")).parts[0]!.outcome).toBe("full");
+  await picture(page, "corner-edge-made");
+  await page.getByRole("slider", { name: /^Direction of corner edge/ }).focus();
+  await page.keyboard.press("Delete");
+  await expect.poll(async () => cornerEdgesOf(await planNow()).length).toBe(0);
+  expect(pitched(await planNow())).toContain(edge);
+});
+
 test("files are dropped on the view, and models of others are shown beside the run", async ({ clean: page, server, folder }) => {
   const model = someModel(folder);
   await openSample(page, server);
