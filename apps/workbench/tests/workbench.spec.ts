@@ -7,7 +7,9 @@ import type { AddressInfo } from "node:net";
 import { join } from "node:path";
 import type { Locator, Page } from "@playwright/test";
 import type * as api from "../src/api/types";
+import { cornerEdgesOf } from "../src/edit/plan";
 import { structuresOf } from "../src/edit/structures";
+import { bearingOf, turnedAt, wallBeside } from "../src/edit/turned_roof";
 import { type Line, type Server, data, expect, fingers, mansard, picture, png, saved, test } from "./harness";
 
 type Known = { window: { mansard: { state: typeof import("../src/state"); latency: number[]; drawn: number[] } } };
@@ -1443,6 +1445,143 @@ test("ridges, eaves and faces have handles in the view", { tag: "@firefox" }, as
     await page.getByRole("tab", { name: "Run" }).click();
     await expect(page.locator(".edit-handle")).toHaveCount(0);
   });
+});
+
+/** A house with a ridge along y = 5 from x = 0 to 20, and an upper side that is not parallel to it; and its footprint. */
+function obliqueHouse(folder: string): [mesh: string, footprints: string] {
+  const [x0, y0] = [85_000, 447_000];
+  const corners = [[0, 0, 5], [20, 0, 5], [20, 5, 10], [20, 8, 7], [0, 10, 5], [0, 5, 10]];
+  const vertices = [
+    ...corners.map(([x, y]) => [x, y, 0]),
+    ...corners,
+    ...[[-30, -30], [50, -30], [50, 40], [-30, 40]].map(([x, y]) => [x, y, 0]),
+  ].map(([x, y, z]) => `v ${x! + x0} ${y! + y0} ${z}`);
+  const walls = corners.map((_, i) => `f ${i + 1} ${((i + 1) % 6) + 1} ${((i + 1) % 6) + 7} ${i + 7}`);
+  const mesh = join(folder, "oblique.obj");
+  writeFileSync(mesh, [...vertices, ...walls, "f 7 8 9 12", "f 12 9 10 11", "f 13 14 15 16", ""].join("\n"));
+  const outline = [[0, 0], [20, 0], [20, 8], [0, 10], [0, 0]].map(([x, y]) => [x! + x0, y! + y0]);
+  const footprints = join(folder, "oblique.geojson");
+  const crs = { type: "name", properties: { name: "EPSG:28992" } };
+  const house = { type: "Feature", properties: { id: "oblique" }, geometry: { type: "Polygon", coordinates: [outline] } };
+  writeFileSync(footprints, JSON.stringify({ type: "FeatureCollection", crs, features: [house] }));
+  return [mesh, footprints];
+}
+
+test("a roof plane over an oblique side is turned, given back to its wall, and made again", { tag: "@firefox" }, async ({ clean: page, server, folder }) => {
+  await openFiles(page, server, ...obliqueHouse(folder));
+  await reconstruct(page, "oblique");
+  const now = () => buildingOf(page, "oblique");
+  const planNow = async () => (await now()).parts[0]!.plan;
+  const first = await planNow();
+  const [corner] = cornerEdgesOf(first);
+  expect(corner, "a corner edge").toBeTruthy();
+  const wall = wallBeside(first, corner!)!.at.edge;
+  const bearing = async () => {
+    const plan = await planNow();
+    const at = cornerEdgesOf(plan)[0];
+    return at ? bearingOf(turnedAt(plan, at)!.along) : null;
+  };
+  const undo = async () => {
+    await page.getByRole("button", { name: /^Undo/ }).click();
+    await expect.poll(planNow).toEqual(first);
+  };
+  expect(await bearing()).toBeCloseTo(90, 1);
+  await pick(page, "oblique");
+  const handle = page.getByRole("slider", { name: /^Direction of corner edge/ });
+
+  await test.step("a click on its plane selects it, and its direction is typed", async () => {
+    await page.getByRole("button", { name: new RegExp(`^corner edge ${corner!.edge}, direction 90.0 degrees, pitch 45`) }).focus();
+    await page.keyboard.press("Enter");
+    await expect(page.getByRole("application", { name: new RegExp(`^Profile of corner edge ${corner!.edge} of`) })).toBeVisible();
+    const direction = page.getByRole("textbox", { name: "Direction, degrees" });
+    await expect(direction).toHaveValue(/^(90\.0|89\.9)/);
+    await picture(page, "corner-edge");
+    await direction.fill("85");
+    await direction.press("Enter");
+    await expect.poll(bearing).toBeCloseTo(85, 2);
+    expect((await now()).valid).toBe(true);
+    await undo();
+    await page.getByRole("button", { name: /^corner edge \d+ ×/ }).click();
+    await page.getByRole("button", { name: "View from above" }).click();
+    await idle(page);
+    // Beside the handle of the plane, on the plane itself.
+    const plane = page.getByRole("button", { name: new RegExp(`^roof plane of corner edge ${corner!.edge}\\.`) });
+    await expect(plane).toBeVisible();
+    const middle = (await plane.boundingBox())!;
+    await page.mouse.click(middle.x + middle.width / 2 + 24, middle.y + middle.height / 2);
+    await expect(page.getByRole("button", { name: /^corner edge \d+ ×/ })).toBeVisible();
+  });
+
+  await test.step("its handle is dragged, and moved with keys", async () => {
+    await handle.hover();
+    const box = (await handle.boundingBox())!;
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.down();
+    for (let i = 1; i <= 6; ++i) await page.mouse.move(x, y + 0.65 * i); // 5°
+    await expect(page.locator(".edit-plan .dimension")).toContainText(/° from edge/);
+    await picture(page, "corner-edge-dragged", "at once");
+    await page.mouse.up();
+    await expect.poll(async () => Math.abs((await bearing())! - 90)).toBeGreaterThan(3);
+    expect((await now()).parts[0]!.outcome).toBe("full");
+    await undo();
+    await handle.focus();
+    await page.keyboard.press("Shift+ArrowLeft");
+    await expect.poll(bearing).toBeCloseTo(85, 1);
+    await undo();
+  });
+
+  await test.step("its roof goes back to the wall, and from there to a corner edge that fits the scan", async () => {
+    const { mse } = await now();
+    await page.getByRole("button", { name: "Remove corner edge" }).click();
+    await expect.poll(bearing).toBe(null);
+    const plain = await planNow();
+    expect(plain.outer.points.length).toBe(4);
+    await expect(page.getByRole("application", { name: new RegExp(`^Profile of edge ${wall} of`) })).toBeVisible();
+    expect((await now()).mse!).toBeGreaterThan(mse! + 0.01);
+    await page.getByRole("button", { name: "Turn roof" }).click();
+    await expect.poll(bearing, { timeout: 30_000 }).toBeCloseTo(90, 0);
+    expect((await now()).mse!).toBeLessThan(mse! + 0.001);
+    await expect(page.getByRole("application", { name: /^Profile of corner edge/ })).toBeVisible();
+    await picture(page, "corner-edge-again");
+    await page.getByRole("button", { name: /^Undo/ }).click();
+    await expect.poll(planNow).toEqual(plain);
+    await undo();
+  });
+
+  await test.step("all of it can be reached at 1366 x 768 at 200 %", async () => {
+    await page.setViewportSize({ width: 683, height: 384 });
+    await handle.focus();
+    await page.keyboard.press("Enter");
+    await picture(page, "small-683-corner-edge");
+    const plan = (await page.getByRole("application", { name: /^Plan of/ }).boundingBox())!;
+    expect(plan.height).toBeGreaterThan(110);
+    await page.getByRole("textbox", { name: "Direction, degrees" }).click();
+    await page.getByRole("button", { name: "Remove corner edge" }).click();
+    await expect.poll(bearing).toBe(null);
+    await page.getByRole("button", { name: "Turn roof" }).click();
+    await expect.poll(bearing, { timeout: 30_000 }).toBeCloseTo(90, 0);
+  });
+});
+
+test("the roof of a wall is turned without a scan, and Delete takes the corner edge away", async ({ clean: page, server, folder }) => {
+  await page.goto(server.link);
+  await page.getByLabel("Models that mansard wrote").fill(someModel(folder));
+  await page.getByRole("button", { name: "Open model" }).click();
+  await open(page, "street.city.json");
+  await pick(page, "right");
+  const planNow = async () => (await buildingOf(page, "right")).parts[0]!.plan;
+  const [edge] = pitched(await planNow());
+  await pickEdge(page, edge!);
+  await page.getByRole("button", { name: "Turn roof" }).click();
+  await expect.poll(async () => cornerEdgesOf(await planNow()).length).toBe(1);
+  const turned = await planNow();
+  expect(wallBeside(turned, cornerEdgesOf(turned)[0]!)!.degrees).toBeCloseTo(5, 1);
+  expect((await buildingOf(page, "right")).parts[0]!.outcome).toBe("full");
+  await picture(page, "corner-edge-made");
+  await page.getByRole("slider", { name: /^Direction of corner edge/ }).focus();
+  await page.keyboard.press("Delete");
+  await expect.poll(async () => cornerEdgesOf(await planNow()).length).toBe(0);
+  expect(pitched(await planNow())).toContain(edge);
 });
 
 test("files are dropped on the view, and models of others are shown beside the run", async ({ clean: page, server, folder }) => {

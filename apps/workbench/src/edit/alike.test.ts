@@ -18,10 +18,10 @@ test("a row is what is joined by walls", () => {
 test("corresponding edges are found in a turned and in a mirrored plan", () => {
   const l: Point2[] = [[0, 0], [9, 0], [9, 4], [5, 4], [5, 7], [0, 7]];
   const turned = [2, 3, 4, 5, 0, 1].map((i): Point2 => [-l[i]![1], l[i]![0]]);
-  expect(correspondence(l, turned)).toEqual([2, 3, 4, 5, 0, 1]);
+  expect(correspondence(l, turned)).toEqual({ edges: [2, 3, 4, 5, 0, 1], mirrored: false });
   const mirrored = [...l].reverse().map(([x, y]): Point2 => [-x, y]);
   // Edge i of the mirrored plan runs from old corner 5 − i to 4 − i: the old edge 4 − i.
-  expect(correspondence(l, mirrored)).toEqual([4, 3, 2, 1, 0, 5]);
+  expect(correspondence(l, mirrored)).toEqual({ edges: [4, 3, 2, 1, 0, 5], mirrored: true });
   expect(correspondence(l, l.slice(1))).toBeNull();
 });
 

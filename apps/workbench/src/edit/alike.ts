@@ -1,10 +1,12 @@
 // Several houses at once: the parts of a row, the roof of one part on others, and parts that are added or removed.
 import type { NamedPlan, Plan, Point2 } from "../api/types";
-import { after, clean, oriented, ringsOf, sharedWall } from "./plan";
+import { apart, type CornerEdge, together } from "./corner_edges";
+import { after, clean, cornerEdgesOf, isCorner, oriented, ringsOf, sharedWall } from "./plan";
 import { gutterOf, pitchOf, slopes } from "./profile";
 import { eavesOf, shaped, type Roof, type Shape } from "./shapes";
 import { freeId } from "./structures";
-import { distance, minus, unit } from "./vector";
+import { withoutTurnedRoof } from "./turned_roof";
+import { cross, distance, dot, minus, rotated, unit } from "./vector";
 
 export interface Place {
   building: string;
@@ -53,8 +55,14 @@ function unlike(a: readonly Point2[], b: readonly Point2[], shift: number, mirro
   return sum;
 }
 
-/** For each edge of `to` the corresponding edge of `from`; null if they have different numbers of corners. */
-export function correspondence(from: readonly Point2[], to: readonly Point2[]): number[] | null {
+/** For each edge of `to` the corresponding edge of `from`, and whether they follow each other the other way round. */
+interface Correspondence {
+  edges: number[];
+  mirrored: boolean;
+}
+
+/** The edges that correspond; null if they have different numbers of corners. */
+export function correspondence(from: readonly Point2[], to: readonly Point2[]): Correspondence | null {
   const n = from.length;
   if (n !== to.length || n < 3) return null;
   let best = { cost: Infinity, shift: 0, mirrored: false };
@@ -63,16 +71,41 @@ export function correspondence(from: readonly Point2[], to: readonly Point2[]): 
       const cost = unlike(to, from, shift, mirrored);
       if (cost < best.cost - 1e-9) best = { cost, shift, mirrored };
     }
-  return to.map((_, i) => (best.mirrored ? (2 * n + best.shift - i) % n : (i + best.shift) % n));
+  const edges = to.map((_, i) => (best.mirrored ? (2 * n + best.shift - i) % n : (i + best.shift) % n));
+  return { edges, mirrored: best.mirrored };
+}
+
+const wayOf = (points: readonly Point2[], edge: number) =>
+  unit(minus(points[(edge + 1) % points.length]!, points[(edge + points.length) % points.length]!))!;
+const turnOf = (a: Point2, b: Point2) => Math.atan2(cross(a, b), dot(a, b));
+
+/** A corner edge at the corner of another ring that corresponds: as far from the wall that it is nearest to. */
+function cornerEdgeAlike(edge: CornerEdge, from: readonly Point2[], to: readonly Point2[], { edges, mirrored }: Correspondence): CornerEdge {
+  const before = turnOf(wayOf(from, edge.corner - 1), edge.along);
+  const after = turnOf(edge.along, wayOf(from, edge.corner));
+  // The corner is at the start of its edge; mirrored, at the end of the edge that corresponds to this.
+  const corner = mirrored ? (edges.indexOf(edge.corner) + 1) % to.length : edges.indexOf(edge.corner);
+  const [first, second] = mirrored ? [after, before] : [before, after];
+  const along = first < second ? rotated(wayOf(to, corner - 1), first) : rotated(wayOf(to, corner), -second);
+  const { last: _, ...kept } = edge;
+  return { ...kept, corner, along };
 }
 
 /** The shape that the roof of a part has: the nearest of those that can be applied in one click. */
-export function shapeOf(plan: Plan, shared: readonly boolean[] = []): Shape {
+export function shapeOf(given: Plan, sharedEdges: readonly boolean[] = []): Shape {
+  const shared = sharedEdges.filter((_, edge) => !isCorner(given, { ring: 0, edge }));
+  const plan = straightened(given);
   const free = plan.outer.profile_of_edge.filter((_, i) => !shared[i]);
   const sloped = free.filter((p) => slopes(plan.profiles[p]!).length > 0);
   if (!sloped.length) return "flat";
   if (sloped.some((p) => slopes(plan.profiles[p]!).length > 1)) return "mansard";
   return sloped.length === free.length ? "hip" : "gable";
+}
+
+/** The plan whose roofs rise from its walls alone. */
+function straightened(plan: Plan): Plan {
+  const [first] = cornerEdgesOf(plan);
+  return first ? straightened(withoutTurnedRoof(plan, first)!.plan) : plan;
 }
 
 const median = (values: number[]) => [...values].sort((a, b) => a - b)[values.length >> 1];
@@ -90,7 +123,8 @@ export function roofOf(plan: Plan): Roof {
 /** The plan with the roof of another one: with as many corners, the profiles of its edges, each on the edge that corresponds;
  *  else a roof of the same shape, eaves and pitch. Outline and base stay. */
 export function alike(model: Plan, plan: Plan, sharedOfModel: readonly boolean[], shared: readonly boolean[]): Plan {
-  const [from, to] = [oriented(model), oriented(plan)];
+  const { plan: from, corners } = apart(oriented(model));
+  const { plan: to } = apart(oriented(plan));
   const rings = ringsOf(to);
   const maps = ringsOf(from).length === rings.length
     ? rings.map((ring, r) => correspondence(ringsOf(from)[r]!.points, ring.points))
@@ -98,11 +132,12 @@ export function alike(model: Plan, plan: Plan, sharedOfModel: readonly boolean[]
   if (maps.every((m) => m !== null)) {
     const own = rings.map((ring, r) => ({
       points: ring.points,
-      profile_of_edge: maps[r]!.map((edge) => ringsOf(from)[r]!.profile_of_edge[edge]!),
+      profile_of_edge: maps[r]!.edges.map((edge) => ringsOf(from)[r]!.profile_of_edge[edge]!),
     }));
-    return clean({ ...to, cap: model.cap, profiles: model.profiles, outer: own[0]!, holes: own.slice(1) });
+    const turned = corners.map((c) => cornerEdgeAlike(c, ringsOf(from)[c.ring]!.points, rings[c.ring]!.points, maps[c.ring]!));
+    return clean(together({ ...to, cap: model.cap, profiles: model.profiles, outer: own[0]!, holes: own.slice(1) }, turned));
   }
-  return shaped(to, shapeOf(model, sharedOfModel), (i) => shared[i] ?? false, roofOf(model));
+  return shaped(oriented(plan), shapeOf(model, sharedOfModel), (i) => shared[i] ?? false, roofOf(model));
 }
 
 /** Edges across a row: along these its ridge does not run. Null if the part shares no wall. */

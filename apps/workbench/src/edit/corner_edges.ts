@@ -2,7 +2,7 @@
 // edits a plan, such an edge is part of its corner: operations on corners and edges work on the plan without them, and they
 // are put back at their corners.
 import type { Plan, PlanRing, Point2 } from "../api/types";
-import { cross, dot, distance, meeting, minus, plus, times, turnedLeft, unit } from "./vector";
+import { cross, dot, distance, minus, plus, rotated, times, unit } from "./vector";
 
 /** m; a longer edge is a wall. */
 const longest = 1e-3;
@@ -19,6 +19,8 @@ export interface CornerEdge {
   along: Point2;
   profile: number;
   overhang?: number;
+  /** It is the last edge of its ring, before the corner 0. */
+  last?: boolean;
 }
 
 const wrapped = (ring: readonly Point2[], i: number) => ring[(i + ring.length) % ring.length]!;
@@ -36,14 +38,22 @@ export function isCornerEdge(ring: { points: readonly Point2[] }, edge: number):
   return between(unit(before)!, own, unit(after)!);
 }
 
-/** The corner that a corner edge stands at. */
+/** The corner of a corner edge. */
 export function cornerAt(ring: { points: readonly Point2[] }, edge: number): Point2 {
   const p = ring.points;
   const from = wrapped(p, edge);
   const to = wrapped(p, edge + 1);
-  const before = unit(minus(from, wrapped(p, edge - 1)))!;
-  const after = unit(minus(wrapped(p, edge + 2), to))!;
-  return meeting({ at: from, along: before }, { at: to, along: after }) ?? from;
+  const { before, after } = wallsAt(ring, edge)!;
+  return plus(from, times(before, cross(minus(to, from), after) / cross(before, after)));
+}
+
+/** The directions of the walls beside a corner edge; null for other edges. */
+export function wallsAt(ring: { points: readonly Point2[] }, edge: number): { before: Point2; after: Point2 } | null {
+  if (!isCornerEdge(ring, edge)) return null;
+  const p = ring.points;
+  const before = unit(minus(wrapped(p, edge), wrapped(p, edge - 1)))!;
+  const after = unit(minus(wrapped(p, edge + 2), wrapped(p, edge + 1)))!;
+  return { before, after };
 }
 
 function ringApart(ring: PlanRing, r: number): { ring: PlanRing; edges: number[]; corners: CornerEdge[] } {
@@ -58,6 +68,7 @@ function ringApart(ring: PlanRing, r: number): { ring: PlanRing; edges: number[]
       along: unit(minus(wrapped(ring.points, edge + 1), ring.points[edge]!))!,
       profile: ring.profile_of_edge[edge]!,
       ...(ring.overhang_of_edge ? { overhang: ring.overhang_of_edge[edge]! } : {}),
+      ...(edge === points.length - 1 ? { last: true } : {}),
     };
   });
   const rest = <T>(values: T[]) => values.filter((_, i) => !edges.includes(i));
@@ -72,34 +83,66 @@ function ringApart(ring: PlanRing, r: number): { ring: PlanRing; edges: number[]
   };
 }
 
-/** The direction itself where it is between those of the edges at the corner, else the nearest that is; null where there
- *  is none. */
-function directionAt(ring: PlanRing, corner: number, along: Point2): Point2 | null {
-  const before = unit(minus(wrapped(ring.points, corner), wrapped(ring.points, corner - 1)));
-  const after = unit(minus(wrapped(ring.points, corner + 1), wrapped(ring.points, corner)));
-  if (!before || !after) return null;
+/** The direction itself where it is between those of two walls, else the nearest that is; null where there is none. */
+export function clampedBetween(before: Point2, after: Point2, along: Point2): Point2 | null {
   if (between(before, along, after)) return along;
   const turn = Math.atan2(cross(before, after), dot(before, after));
   if (turn < 2 * kept || dot(before, after) <= sharpest) return null;
-  const angle = Math.min(Math.max(Math.atan2(cross(before, along), dot(before, along)), kept), turn - kept);
-  return plus(times(before, Math.cos(angle)), times(turnedLeft(before), Math.sin(angle)));
+  // From the middle of both: what is nearest also behind the corner.
+  const centre = rotated(before, turn / 2);
+  const off = Math.atan2(cross(centre, along), dot(centre, along));
+  const most = turn / 2 - kept;
+  return rotated(centre, Math.min(Math.max(off, -most), most));
+}
+
+/** The ends of a corner edge at a corner. */
+function endsAt(at: Point2, before: Point2, along: Point2, after: Point2): [Point2, Point2] {
+  const whole = cross(before, after);
+  return [
+    minus(at, times(before, ((longest / 2) * cross(along, after)) / whole)),
+    plus(at, times(after, ((longest / 2) * cross(before, along)) / whole)),
+  ];
 }
 
 function withCornerEdge(ring: PlanRing, edge: CornerEdge): PlanRing {
   const { corner } = edge;
-  const along = directionAt(ring, corner, edge.along);
-  if (!along) return ring;
   const at = ring.points[corner]!;
-  const before = unit(minus(at, wrapped(ring.points, corner - 1)))!;
-  const after = unit(minus(wrapped(ring.points, corner + 1), at))!;
-  const whole = cross(before, after);
-  const from = minus(at, times(before, ((longest / 2) * cross(along, after)) / whole));
-  const to = plus(at, times(after, ((longest / 2) * cross(before, along)) / whole));
-  const put = <T>(values: T[], value: T) => [...values.slice(0, corner), value, ...values.slice(corner)];
+  const before = unit(minus(at, wrapped(ring.points, corner - 1)));
+  const after = unit(minus(wrapped(ring.points, corner + 1), at));
+  const along = before && after && clampedBetween(before, after, edge.along);
+  if (!along) return ring;
+  const [from, to] = endsAt(at, before, along, after);
+  // At corner 0 it is the first edge or the last one: other edges keep their numbers.
+  const last = edge.last && corner === 0;
+  const put = <T>(values: T[], value: T) =>
+    last ? [...values, value] : [...values.slice(0, corner), value, ...values.slice(corner)];
+  const others = ring.points.map((p, i) => (i === corner ? to : p));
   return {
-    points: [...ring.points.slice(0, corner), from, to, ...ring.points.slice(corner + 1)],
+    points: put(others, from),
     profile_of_edge: put(ring.profile_of_edge, edge.profile),
     ...(ring.overhang_of_edge ? { overhang_of_edge: put(ring.overhang_of_edge, edge.overhang ?? 0) } : {}),
+  };
+}
+
+/** The ring with another direction of a corner edge, or with the nearest that is between its walls. */
+export function withDirection(ring: PlanRing, edge: number, way: Point2): PlanRing {
+  const walls = wallsAt(ring, edge);
+  const along = walls && clampedBetween(walls.before, walls.after, way);
+  if (!along) return ring;
+  const [from, to] = endsAt(cornerAt(ring, edge), walls.before, along, walls.after);
+  const next = (edge + 1) % ring.points.length;
+  return { ...ring, points: ring.points.map((p, i) => (i === edge ? from : i === next ? to : p)) };
+}
+
+/** The ring with a plain corner in the place of a corner edge. */
+export function withoutEdge(ring: PlanRing, edge: number): PlanRing {
+  const corner = cornerAt(ring, edge);
+  const next = (edge + 1) % ring.points.length;
+  const rest = <T>(values: T[]) => values.filter((_, i) => i !== edge);
+  return {
+    points: rest(ring.points.map((p, i) => (i === next ? corner : p))),
+    profile_of_edge: rest(ring.profile_of_edge),
+    ...(ring.overhang_of_edge ? { overhang_of_edge: rest(ring.overhang_of_edge) } : {}),
   };
 }
 

@@ -72,6 +72,12 @@ export function renumber(at: EdgeAt, added: boolean, edges: number) {
   chosen.value = chosen.value.map((e) => (e.ring === at.ring ? { ring: e.ring, edge: now(e.edge) } : e));
 }
 
+/** Selects an edge after a change to which other edge numbers do not apply. */
+export function selectAfresh(at: EdgeAt | null) {
+  chosen.value = [];
+  selectEdge(at);
+}
+
 export function toggleChosen(at: EdgeAt) {
   const rest = chosen.value.filter((e) => !sameEdge(e, at));
   chosen.value = rest.length < chosen.value.length ? rest : [...rest, at];

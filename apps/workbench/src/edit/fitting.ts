@@ -1,7 +1,8 @@
 // Measures of a roof that fit the scan best, found by measuring: of one plane, or of a dormer.
 import type { NamedPlan, Plan } from "../api/types";
-import { changeProfiles, collinear, profileOf, type EdgeAt } from "./plan";
+import { changeProfiles, collinear, isCorner, profileOf, type EdgeAt } from "./plan";
 import { gutterOf, lastRoof, pitchOf, same, withGutter, withSlope, type Profile } from "./profile";
+import { turnedBy } from "./turned_roof";
 import { dormerBox, replaced, structureAt, withDormerBox } from "./structures";
 
 /** A building with measures that can be varied; null: not with these. */
@@ -20,7 +21,7 @@ export const planeOf = (plan: Plan, at: EdgeAt): EdgeAt[] => {
 const steepest = 8; // rise over run, about 83°
 const higher = 30; // m; of the cap while planes are tried
 
-/** The gutter and the pitch of the plane over an edge. Other planes stay. `ridge`: of the part as it is, above its base. Null if
+/** The gutter and the pitch of the plane over an edge, and the direction of a corner edge. Other planes stay. `ridge`: of the part as it is, above its base. Null if
  *  the edge has a wall. */
 export function variablePlane(parts: readonly NamedPlan[], part: string, at: EdgeAt, ridge: number): Variable | null {
   const plan = parts.find((p) => p.id === part)?.plan;
@@ -34,16 +35,16 @@ export function variablePlane(parts: readonly NamedPlan[], part: string, at: Edg
   // A cap above the ridge stays above it; `trimmed` lowers it again.
   const cap = plan.cap < ridge + 0.005 ? plan.cap : plan.cap + higher;
   return {
-    start: [gutter, gutter + pitch * run],
-    steps: [0.4, 0.4],
-    made: ([foot, top]) => {
+    start: [gutter, gutter + pitch * run, ...(isCorner(plan, at) ? [0] : [])],
+    steps: [0.4, 0.4, ...(isCorner(plan, at) ? [4] : [])],
+    made: ([foot, top, turn]) => {
       const slope = (top! - foot!) / run;
       if (foot! < 0.1 || !(slope > 0.01 && slope < steepest)) return null;
       const change = (p: Profile) => {
         const moved = withGutter(p, foot!);
         return withSlope(moved, lastRoof(moved), slope);
       };
-      return replaced(parts, part, { ...changeProfiles(plan, edges, change), cap }).parts;
+      return replaced(parts, part, { ...changeProfiles(turn ? turnedBy(plan, at, turn) : plan, edges, change), cap }).parts;
     },
   };
 }

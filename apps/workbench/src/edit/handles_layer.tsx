@@ -12,6 +12,7 @@ import { arrow, keyStep, partsOf, raisedPart, ridgeOf, selectEdge, withPlan } fr
 import { handlesOf, moved, pitchesOf, type Handle } from "./handles";
 import { session } from "./here";
 import { metres } from "./numbers";
+import { isCorner } from "./plan";
 import { filledRings } from "./structures";
 
 type Axis = "up" | "aside";
@@ -33,13 +34,16 @@ const apart = 25; // pixels between two handles, which are 24 pixels wide
 const smallest = 50; // pixels; of the part, so that it has handles
 const foreshortened = 0.25; // of its length: an axis that is seen so is no direction to drag in
 
-const numbers = (handle: Handle) => {
+const numbers = (plan: Plan, handle: Handle) => {
   if (handle.kind === "top") return "";
-  const edges = (handle.kind === "ridge" ? handle.sides : [handle.side]).map((s) => s.edges.map((e) => e.edge).join(", "));
+  const sides = handle.kind === "ridge" ? handle.sides : [handle.side];
+  const edges = sides.map((s) => s.edges.map((e) => e.edge).join(", "));
+  if (sides.some((s) => isCorner(plan, s.edges[0]!)))
+    return sides.map((s, i) => `${isCorner(plan, s.edges[0]!) ? "corner edge" : "edge"} ${edges[i]}`).join(" and ");
   return edges.length === 2 ? `edges ${edges[0]} and ${edges[1]}` : `edge ${edges[0]}`;
 };
-const nameOf = (handle: Handle): string =>
-  ({ eave: "eave of ", ridge: "ridge between ", face: "roof plane of ", top: "flat top" })[handle.kind] + numbers(handle);
+const nameIn = (plan: Plan, handle: Handle): string =>
+  ({ eave: "eave of ", ridge: "ridge between ", face: "roof plane of ", top: "flat top" })[handle.kind] + numbers(plan, handle);
 const uses: Record<Handle["kind"], string> = {
   eave: "Drag it up or down: the roof moves along",
   ridge: "Drag it up or down: the pitches change, the eaves stay. Drag it sideways: it moves over the plan",
@@ -124,6 +128,7 @@ export function Handles({ images }: { images: ReadonlySignal<number> }) {
 
   if (!wanted || !part || !at?.part) return null;
   const building = at.building;
+  const nameOf = (handle: Handle) => nameIn(part.plan, handle);
 
   const start = (handle: Handle): Start => ({
     handle,

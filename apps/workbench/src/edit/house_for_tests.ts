@@ -1,5 +1,6 @@
 // Houses for the tests.
 import type { Plan, Point2 } from "../api/types";
+import { together } from "./corner_edges";
 import type { Profile } from "./profile";
 
 export const roof: Profile = [
@@ -54,3 +55,29 @@ export const withCorners = (points: Point2[]): Plan => ({
   ...house(),
   outer: { points, profile_of_edge: points.map((_, i) => i % 2) },
 });
+
+/** A gable over an oblique side: the corner edge is number 3, parallel to edge 0.
+ *
+ *  4 +--.
+ *    |    `--. 2
+ *  0 +--------+ 1
+ */
+export const obliqueHouse = (): Plan =>
+  together(
+    {
+      base: 0,
+      cap: 20,
+      outer: {
+        points: [
+          [0, 0],
+          [20, 0],
+          [20, 8],
+          [0, 10],
+        ],
+        profile_of_edge: [0, 1, 1, 1],
+      },
+      holes: [],
+      profiles: [roof, gable],
+    },
+    [{ ring: 0, corner: 3, along: [-1, 0], profile: 0 }],
+  );

@@ -7,6 +7,7 @@ import { said } from "../panels/words";
 import "./edit.css";
 import { selectEdge, shortId, shortName } from "./desk";
 import { session, showDraft } from "./here";
+import { edgeName } from "./plan";
 import { PlanEditor } from "./plan_editor";
 import { ProfileEditor } from "./profile_editor";
 import { keepShown } from "./offers";
@@ -129,6 +130,7 @@ function EditBar() {
   const at = state.selection.value!;
   const building = state.selectedBuilding.value!;
   const draft = state.draft.value;
+  const plan = state.selectedPlan.value;
   const phase = session.phase.value;
   const held = phase === "held";
   const compared = state.isBefore(state.other.value?.id);
@@ -170,7 +172,7 @@ function EditBar() {
         </span>
         {at.edge !== null && (
           <button type="button" class="edit-quiet" onClick={() => selectEdge(null)} title="Deselect the edge">
-            edge {at.edge} ×
+            {plan ? edgeName(plan, { ring: at.ring, edge: at.edge }) : `edge ${at.edge}`} ×
           </button>
         )}
       </div>

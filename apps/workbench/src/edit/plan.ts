@@ -43,6 +43,15 @@ export function profileOf(plan: Plan, at: EdgeAt): Profile | null {
   const index = ringOf(plan, at.ring)?.profile_of_edge[at.edge];
   return index === undefined ? null : (plan.profiles[index] ?? null);
 }
+/** Whether an edge is one without extent at a corner, whose direction is that of a roof plane. */
+export function isCorner(plan: Plan, at: EdgeAt): boolean {
+  const ring = ringOf(plan, at.ring);
+  return !!ring && at.edge < ring.points.length && isCornerEdge(ring, at.edge);
+}
+/** The edges that are walls of some length, and the others. */
+export const wallsOf = (plan: Plan): EdgeAt[] => edgesOf(plan).filter((e) => !isCorner(plan, e));
+export const cornerEdgesOf = (plan: Plan): EdgeAt[] => edgesOf(plan).filter((e) => isCorner(plan, e));
+export const edgeName = (plan: Plan, at: EdgeAt) => `${isCorner(plan, at) ? "corner edge" : "edge"} ${at.edge}`;
 export const sameEdge = (a: EdgeAt, b: EdgeAt) => a.ring === b.ring && a.edge === b.edge;
 
 /** Area of the footprint, m². */
@@ -240,7 +249,7 @@ export function oriented(plan: Plan): Plan {
   return { ...plan, outer: turned(plan.outer, 0), holes: plan.holes.map((h, i) => turned(h, i + 1)) };
 }
 
-/** Edges on the opposite side that are parallel within 10°. */
+/** Edges on the opposite side that are parallel within 10°. A corner edge is opposite of what its roof rises towards. */
 export function opposite(plan: Plan, at: EdgeAt): EdgeAt[] {
   const ends = endsOf(plan, at);
   const along = ends && unit(minus(ends[1], ends[0]));
@@ -249,6 +258,7 @@ export function opposite(plan: Plan, at: EdgeAt): EdgeAt[] {
     const [a, b] = endsOf(plan, e)!;
     const other = unit(minus(b, a));
     if (!other || dot(other, along) > -0.985) return false;
+    if (isCorner(plan, at) || isCorner(plan, e)) return cross(along, minus(a, ends[0])) > 0.1;
     const reach = (p: Point2) => dot(minus(p, ends[0]), along);
     const low = Math.max(0, Math.min(reach(a), reach(b)));
     const high = Math.min(distance(...ends), Math.max(reach(a), reach(b)));
@@ -256,13 +266,13 @@ export function opposite(plan: Plan, at: EdgeAt): EdgeAt[] {
   });
 }
 
-/** Other edges on the same line, within 0.1 m, with the same direction. */
+/** Other edges on the same line, within 0.1 m, with the same direction. A corner edge has a plane of its own. */
 export function collinear(plan: Plan, at: EdgeAt): EdgeAt[] {
   const ends = endsOf(plan, at);
   const along = ends && unit(minus(ends[1], ends[0]));
-  if (!ends || !along) return [];
+  if (!ends || !along || isCorner(plan, at)) return [];
   const line: Line = { at: ends[0], along };
-  return edgesOf(plan).filter((e) => {
+  return wallsOf(plan).filter((e) => {
     if (sameEdge(e, at)) return false;
     const [a, b] = endsOf(plan, e)!;
     const other = unit(minus(b, a));

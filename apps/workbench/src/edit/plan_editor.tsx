@@ -3,6 +3,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { attempt, client, needLayers, select, selectAlso, showMessage } from "../actions";
 import type * as api from "../api/types";
 import type { Point2 } from "../api/types";
+import { count } from "../panels/words";
 import * as state from "../state";
 import {
   arrow,
@@ -12,6 +13,8 @@ import {
   keyStep,
   raisedPart,
   renumber,
+  ridgeOf,
+  selectAfresh,
   selectEdge,
   snapping,
   partsOf,
@@ -26,35 +29,50 @@ import {
   addHole,
   after,
   before,
+  cornerEdgesOf,
   deleteVertex,
-  edgesOf,
+  edgeName,
   endsOf,
   insertVertex,
+  isCorner,
   moveAll,
   moveEdge,
   moveVertex,
   planArea,
   removeHole,
+  profileOf,
   ringOf,
+  wallsOf,
   type EdgeAt,
 } from "./plan";
-import { Backdrop, Corners, Edges, Marks, ringPoints, ScaleBar, type Dimension, type Grip, type Grips } from "./plan_layers";
+import { slopes } from "./profile";
+import { apart } from "./corner_edges";
+import { Backdrop, CornerEdges, Corners, Edges, isForward, Marks, ringPoints, ScaleBar, type Dimension, type Grip, type Grips } from "./plan_layers";
 import { PlanHint, PlanTools, type Tool } from "./plan_tools";
 import { fitted, panned, ruling, toMetres, zoomed } from "./sheet";
 import { bare, nearestDormer, removed, structuresOf, withStructure } from "./structures";
-import { snapDrawn, snapEdge, snapMove, snapVertex, surroundings, type Guide, type Snap, type Surroundings } from "./snap";
+import { bearingOf, capAbove, liftOf, turned, turnedAt, turnedBy, wallBeside, withoutTurnedRoof } from "./turned_roof";
+import { turning, turnRoof } from "./turning";
+import { snapDrawn, snapEdge, snapMove, snapTurn, snapVertex, surroundings, type Guide, type Snap, type Surroundings } from "./snap";
 import { useSheet } from "./use_sheet";
-import { contains, cross, distance, dot, middle, minus, nearestOn, plus, turnedLeft, unit } from "./vector";
+import { contains, cross, distance, dot, middle, minus, nearestOn, plus, rotated, times, turnedLeft, unit } from "./vector";
 
 interface Drag {
-  kind: "pan" | "corner" | "edge" | "whole";
+  kind: "pan" | Grip;
   at: EdgeAt;
   down: Point2; // pixels of the window: the drawing may move when messages appear
   last: Point2;
   plan: api.Plan; // at the start of the drag, as are the parts of the building
   parts: api.NamedPlan[];
   around: Surroundings;
+  ridge: number; // of the part, above its base
   began: boolean;
+}
+/** The part as it was before a corner edge is turned. */
+interface BeforeTurn {
+  plan: api.Plan;
+  parts: api.NamedPlan[];
+  ridge: number;
 }
 
 const reachPixels = 9;
@@ -74,6 +92,8 @@ export function PlanEditor() {
   const sweeps = useSignal(false);
   const partner = useSignal("");
   const nudging = useRef(false);
+  const nudged = useRef<BeforeTurn | null>(null);
+  const held = useSignal<{ at: EdgeAt; forward: boolean } | null>(null);
   const key = `${run?.id} ${at?.building} ${at?.part}`;
   const { svg, sheet, pixels } = useSheet(key, () => (plan ? ringPoints(plan).flat() : []), 44);
 
@@ -133,10 +153,12 @@ export function PlanEditor() {
   const once = (what: string, changed: api.Plan) => session.propose(what, withPlan(changed));
 
   const describeCorner = (moved: api.Plan, at: EdgeAt) => {
-    const ring = ringOf(moved, at.ring)!;
-    const p = ring.points[at.edge]!;
-    const a = ring.points[before(ring, at.edge)]!;
-    const b = ring.points[after(ring, at.edge)]!;
+    const { plan: walls, numberOf } = apart(moved);
+    const ring = ringOf(walls, at.ring)!;
+    const i = numberOf(at.ring, at.edge);
+    const p = ring.points[i]!;
+    const a = ring.points[before(ring, i)]!;
+    const b = ring.points[after(ring, i)]!;
     const turn = (Math.atan2(cross(minus(b, p), minus(a, p)), dot(minus(b, p), minus(a, p))) * 180) / Math.PI;
     const angle = `${((turn + 360) % 360).toFixed(1)}°`;
     dimensions.value = [
@@ -147,10 +169,12 @@ export function PlanEditor() {
     spoken.value = `corner ${at.edge}: edges ${metres(distance(a, p))} and ${metres(distance(p, b))}, angle ${angle}`;
   };
   const describeEdge = (moved: api.Plan, at: EdgeAt, by: number) => {
-    const ring = ringOf(moved, at.ring)!;
-    const [a, b] = endsOf(moved, at)!;
-    const [p] = endsOf(moved, { ring: at.ring, edge: before(ring, at.edge) })!;
-    const [, q] = endsOf(moved, { ring: at.ring, edge: after(ring, at.edge) })!;
+    const { plan: walls, numberOf } = apart(moved);
+    const ring = ringOf(walls, at.ring)!;
+    const i = numberOf(at.ring, at.edge);
+    const [a, b] = endsOf(walls, { ring: at.ring, edge: i })!;
+    const [p] = endsOf(walls, { ring: at.ring, edge: before(ring, i) })!;
+    const [, q] = endsOf(walls, { ring: at.ring, edge: after(ring, i) })!;
     const shift = `${metres(Math.abs(by))} ${by < 0 ? "outwards" : "inwards"}`;
     dimensions.value = [
       { at: middle(a, b), text: `${metres(distance(a, b))} · ${shift}` },
@@ -159,12 +183,28 @@ export function PlanEditor() {
     ];
     spoken.value = `edge ${at.edge}: ${metres(distance(a, b))} long, moved ${shift}`;
   };
+  /** The plan with another direction of a corner edge, shown and described. */
+  const turnedFrom = (from: BeforeTurn, at: EdgeAt, along: Point2, time: number) => {
+    const was = turnedAt(from.plan, at)!;
+    const next = turned(from.plan, at, along);
+    const is = turnedAt(next, at)!;
+    const cap = capAbove(from.plan, from.ridge, liftOf(next, at, was.along, is.along));
+    const bearing = `${bearingOf(is.along).toFixed(1)}°`;
+    session.change(`roof of ${edgeName(next, at)} of ${part} turned to ${bearing}`, withPlan({ ...next, cap }, from.parts), time);
+    const beside = wallBeside(next, at)!;
+    // Outside of the corner, where neither its walls nor the handle are.
+    const outside = times(turnedLeft(is.along), -20 / now.scale);
+    dimensions.value = [{ at: plus(is.corner, outside), text: `${bearing}, ${beside.degrees.toFixed(1)}° from edge ${beside.at.edge}` }];
+    spoken.value = `direction of the roof ${bearing}, ${beside.degrees.toFixed(1)}° from edge ${beside.at.edge}`;
+  };
+  const ridgeNow = () => ridgeOf(raisedPart.value) ?? 0;
   const quiet = () => {
+    held.value = null;
     guides.value = [];
     dimensions.value = [];
   };
 
-  const cornersOf = (at: EdgeAt, kind: "corner" | "edge" | "whole") => (e: EdgeAt) => {
+  const cornersOf = (at: EdgeAt, kind: Grip) => (e: EdgeAt) => {
     if (kind === "whole") return true;
     const ring = ringOf(plan, at.ring)!;
     return e.ring === at.ring && (e.edge === at.edge || (kind === "edge" && e.edge === after(ring, at.edge)));
@@ -186,7 +226,7 @@ export function PlanEditor() {
             solid,
             cornersOf(at, moves),
           );
-    drag.current = { kind: moves, at, down: p, last: p, plan, parts: partsOf(building), around, began: false };
+    drag.current = { kind: moves, at, down: p, last: p, plan, parts: partsOf(building), around, ridge: ridgeNow(), began: false };
   };
 
   // Only once something is dragged: clicks and double clicks go to their own elements.
@@ -218,7 +258,8 @@ export function PlanEditor() {
       }
       d.began = true;
       capture(event);
-      if (d.kind === "edge") selectEdge(d.at);
+      if (d.kind === "edge" || d.kind === "turn") selectEdge(d.at);
+      if (d.kind === "turn") held.value = { at: d.at, forward: isForward(turnedAt(d.plan, d.at)!) };
     }
     if (!session.active) {
       drag.current = null; // cancelled with Esc, undone, or replaced by an edit of another page
@@ -227,7 +268,16 @@ export function PlanEditor() {
       return;
     }
     const by: Point2 = [(p[0] - d.down[0]) / now.scale, (d.down[1] - p[1]) / now.scale];
-    if (d.kind === "whole") wholeMoved(d.plan, snapMove(d.plan, by, snap(event)), event.timeStamp);
+    if (d.kind === "turn") {
+      const { corner: pivot, along } = turnedAt(d.plan, d.at)!;
+      const to = minus(toMetres(now, pixels(event)), pivot);
+      const from = minus(to, by);
+      if (Math.hypot(...to) * now.scale < 8) return; // there every direction is the same
+      const snapped = snapTurn(d.plan, d.at, rotated(along, Math.atan2(cross(from, to), dot(from, to))), snap(event));
+      turnedFrom(d, d.at, snapped.along, event.timeStamp);
+      const is = turnedAt(turned(d.plan, d.at, snapped.along), d.at)!;
+      guides.value = distance(is.along, snapped.along) < 1e-6 ? snapped.guides : [];
+    } else if (d.kind === "whole") wholeMoved(d.plan, snapMove(d.plan, by, snap(event)), event.timeStamp);
     else if (d.kind === "corner") {
       const from = ringOf(d.plan, d.at.ring)!.points[d.at.edge]!;
       const snapped = snapVertex(d.plan, d.at, plus(from, by), d.around, snap(event));
@@ -253,7 +303,7 @@ export function PlanEditor() {
       return;
     }
     if (d.began) session.commit();
-    else if (d.kind === "edge") {
+    else if (d.kind === "edge" || d.kind === "turn") {
       if (event.shiftKey || event.ctrlKey || event.metaKey) toggleChosen(d.at);
       else selectEdge(d.at);
       corner.value = null;
@@ -281,6 +331,13 @@ export function PlanEditor() {
       wholeMoved(plan, by, event.timeStamp);
       return true;
     }
+    if (kind === "turn") {
+      nudged.current ??= { plan, parts: partsOf(building), ridge: ridgeNow() };
+      const degrees = event.shiftKey ? 5 : event.altKey ? 0.1 : 0.5;
+      const next = turnedBy(plan, at, Math.sign(by[0] + by[1]) * degrees);
+      turnedFrom(nudged.current, at, turnedAt(next, at)!.along, event.timeStamp);
+      return true;
+    }
     if (kind === "corner") {
       const p = ringOf(plan, at.ring)!.points[at.edge]!;
       const to: Point2 = [Math.round((p[0] + by[0]) * 1e9) / 1e9, Math.round((p[1] + by[1]) * 1e9) / 1e9];
@@ -299,6 +356,7 @@ export function PlanEditor() {
   const settleNudge = () => {
     if (!nudging.current) return;
     nudging.current = false;
+    nudged.current = null;
     session.commit();
     quiet();
   };
@@ -311,13 +369,14 @@ export function PlanEditor() {
     if (event.key === "Delete" || event.key === "Backspace") {
       if (kind === "edge") return;
       taken();
-      if (kind === "corner") removeCorner(at);
+      if (kind === "turn") removeTurn(at);
+      else if (kind === "corner") removeCorner(at);
       else remove();
     } else if (kind === "whole") return;
-    else if (event.key === "Insert") {
+    else if (event.key === "Insert" && kind !== "turn") {
       taken();
       insertAt(at, middle(...endsOf(plan, at)!));
-    } else if ((event.key === "Enter" || event.key === " ") && kind === "edge") {
+    } else if ((event.key === "Enter" || event.key === " ") && (kind === "edge" || kind === "turn")) {
       taken();
       if (event.key === " " && event.shiftKey) toggleChosen(at);
       else selectEdge(at);
@@ -328,6 +387,7 @@ export function PlanEditor() {
       if (drag.current || nudging.current) {
         event.stopPropagation();
         nudging.current = false;
+        nudged.current = null;
         broken();
         session.cancel();
       } else if (tool.value !== "move") {
@@ -356,6 +416,12 @@ export function PlanEditor() {
 
   // ---- corners, courtyards, splitting
 
+  const removeTurn = (at: EdgeAt) => {
+    const changed = withoutTurnedRoof(plan, at);
+    if (!changed || !once(`corner edge of ${part} removed`, changed.plan)) return;
+    selectAfresh(changed.at);
+    spoken.value = `corner edge removed; its roof is that of edge ${changed.at.edge}`;
+  };
   const removeCorner = (at: EdgeAt) => {
     const changed = deleteVertex(plan, at);
     if (!changed)
@@ -367,7 +433,8 @@ export function PlanEditor() {
       });
     else if (once(`corner of ${part} removed`, changed)) {
       corner.value = null;
-      renumber(at, false, ringOf(plan, at.ring)!.points.length);
+      if (cornerEdgesOf(changed).length < cornerEdgesOf(plan).length) selectAfresh(null);
+      else renumber(at, false, ringOf(plan, at.ring)!.points.length);
       spoken.value = `corner ${at.edge} removed`;
     }
   };
@@ -516,7 +583,11 @@ export function PlanEditor() {
   const preview = cursor.value && drawing ? [...drawn.value, cursor.value] : drawn.value;
   const block = run.buildings.get(building)?.block;
   const sweepEdges = sweeps.value ? (state.segmentations.value.get(run.id)?.sweep_edges ?? []) : [];
-  const measures = `${planArea(plan).toFixed(1)} m² · ${edgesOf(plan).length} edges`;
+  const turns = cornerEdgesOf(plan).length;
+  const measures = `${planArea(plan).toFixed(1)} m² · ${wallsOf(plan).length} edges${turns ? ` · ${count(turns, "corner edge")}` : ""}`;
+  const shownProfile = at.edge === null ? null : profileOf(plan, { ring: at.ring, edge: at.edge });
+  const selectedAt: EdgeAt | null = shownProfile && !filled.has(at.ring) ? { ring: at.ring, edge: at.edge! } : null;
+  const turn = !selectedAt ? null : isCorner(plan, selectedAt) ? "remove" : !structure?.dormer && slopes(shownProfile!).length ? "make" : null;
   const hints: Record<Tool, string> = {
     move: spoken.value || measures,
     hole: "Click the corners of the courtyard. Enter: close, Esc: cancel",
@@ -526,8 +597,8 @@ export function PlanEditor() {
   };
   const instructions =
     `Plan of ${part}. Tab moves from edge to edge, ${structure ? "to the handle of the whole part, " : ""}then from corner to corner. Arrow keys move an edge or corner by 0.1 ` +
-    "metres, with Shift by 1 metre, with Alt by 0.01 metres. Insert adds a corner, Delete removes one, Enter on an edge " +
-    "shows its profile, Escape cancels.";
+    "metres, with Shift by 1 metre, with Alt by 0.01 metres; they turn a corner edge by 0.5 degrees, with Shift by 5, with Alt by 0.1. " +
+    "Insert adds a corner, Delete removes one or a corner edge, Enter on an edge shows its profile, Escape cancels.";
   const grips: Grips = { down, doubleClick, key: onKey, settle: settleNudge };
 
   return (
@@ -538,6 +609,13 @@ export function PlanEditor() {
         drafted={drafted}
         hole={at.ring > 0 && !filled.has(at.ring)}
         structure={structure ? (structure.dormer ? "dormer" : "structure") : null}
+        turn={turn}
+        turning={turning.value}
+        onTurn={() => {
+          spoken.value = "";
+          if (turn === "remove") removeTurn(selectedAt!);
+          else void turnRoof(selectedAt!);
+        }}
         touching={touching}
         partner={mergeable}
         onTool={choose}
@@ -577,6 +655,16 @@ export function PlanEditor() {
           whole={structure ? (structure.dormer ? "dormer" : "structure") : null}
           selected={edgeShown.value}
           chosen={chosen.value}
+          labelled={dimensions.value.length === 0}
+          grips={grips}
+        />
+        <CornerEdges
+          sheet={now}
+          plan={plan}
+          hidden={filled}
+          selected={edgeShown.value}
+          chosen={chosen.value}
+          held={held.value}
           labelled={dimensions.value.length === 0}
           grips={grips}
         />

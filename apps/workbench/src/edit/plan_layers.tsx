@@ -3,11 +3,13 @@ import type { Plan, Point2, SceneFootprint, SweepEdgeLine } from "../api/types";
 import * as state from "../state";
 import { metres } from "./numbers";
 import type { Neighbour } from "./neighbours";
-import { edgesOf, endsOf, profileOf, ringOf, ringsOf, sameEdge, type EdgeAt } from "./plan";
+import { before, cornerEdgesOf, edgesOf, endsOf, isCorner, profileOf, ringOf, ringsOf, sameEdge, wallsOf, type EdgeAt } from "./plan";
 import { degreesOf, kindOf, pitchOf } from "./profile";
 import { toPixels, type Sheet } from "./sheet";
 import type { Guide } from "./snap";
-import { distance, middle, minus, turnedLeft, unit } from "./vector";
+import { bearingOf, turnedAt, type TurnedAt } from "./turned_roof";
+import { cornerAt } from "./corner_edges";
+import { cross, distance, middle, minus, plus, times, turnedLeft, unit } from "./vector";
 
 /** A label at a position: a length or an angle. */
 export interface Dimension {
@@ -15,8 +17,8 @@ export interface Dimension {
   text: string;
 }
 
-/** What can be dragged; a roof structure also as a whole. */
-export type Grip = "corner" | "edge" | "whole";
+/** What can be dragged; a roof structure also as a whole; a corner edge turns. */
+export type Grip = "corner" | "edge" | "whole" | "turn";
 
 /** The handlers of an edge, a corner or a whole part. */
 export interface Grips {
@@ -103,19 +105,13 @@ export function Edges(props: {
         d={pathOf(sheet, ringPoints(plan))}
         onPointerDown={(event) => whole && grips.down(event, "whole", place)}
       />
-      {edgesOf(plan).filter((at) => !hidden.has(at.ring)).map((at) => {
+      {wallsOf(plan).filter((at) => !hidden.has(at.ring)).map((at) => {
         const [a, b] = endsOf(plan, at)!;
-        const profile = profileOf(plan, at) ?? [];
-        const kind = kindOf(profile);
-        const pitch = kind === "pitched" ? degreesOf(pitchOf(profile)!) : 0;
+        const { kind, said, seen } = wordsOf(plan, at);
         const inwards = turnedLeft(unit(minus(b, a)) ?? [1, 0]);
         const [x, y] = toPixels(sheet, middle(a, b));
         const isSelected = selected !== null && sameEdge(selected, at);
         const isChosen = chosen.some((c) => sameEdge(c, at));
-        const said = { pitched: `pitch ${pitch.toFixed(0)} degrees`, wall: "wall up to the cap", terrace: "terrace" }[
-          kind
-        ];
-        const seen = { pitched: `${pitch.toFixed(0)}°`, wall: "wall", terrace: "flat" }[kind];
         const classes = `edge ${kind}${isSelected ? " selected" : ""}${isChosen ? " chosen" : ""}`;
         return (
           <g key={`${at.ring} ${at.edge}`} class={classes}>
@@ -142,6 +138,101 @@ export function Edges(props: {
         );
       })}
       {whole && <Whole sheet={sheet} plan={plan} name={whole} grips={grips} place={place} />}
+    </>
+  );
+}
+
+/** What the profile of an edge is, for the drawing and for screen readers. */
+function wordsOf(plan: Plan, at: EdgeAt) {
+  const profile = profileOf(plan, at) ?? [];
+  const kind = kindOf(profile);
+  const pitch = kind === "pitched" ? degreesOf(pitchOf(profile)!) : 0;
+  const said = { pitched: `pitch ${pitch.toFixed(0)} degrees`, wall: "wall up to the cap", terrace: "terrace" }[kind];
+  const seen = { pitched: `${pitch.toFixed(0)}°`, wall: "wall", terrace: "flat" }[kind];
+  return { kind, said, seen };
+}
+
+/** Pixels from its corner to the ends of the line of a corner edge. */
+const arm = 44;
+
+/** The end of the line that is further from the walls beside it: there its handle is. */
+export const isForward = (t: TurnedAt) => cross(t.along, t.after) > cross(t.before, t.along);
+
+/** Corner edges: a line through the corner in the direction of the eaves, with a handle that turns it. */
+export function CornerEdges(props: {
+  sheet: Sheet;
+  plan: Plan;
+  hidden: ReadonlySet<number>;
+  selected: EdgeAt | null;
+  chosen: EdgeAt[];
+  held: { at: EdgeAt; forward: boolean } | null; // the one that is dragged: its handle stays at the same end
+  labelled: boolean;
+  grips: Grips;
+}) {
+  const { sheet, plan, hidden, selected, chosen, held, labelled, grips } = props;
+  return (
+    <>
+      {cornerEdgesOf(plan).filter((at) => !hidden.has(at.ring)).map((at) => {
+        const turned = turnedAt(plan, at);
+        if (!turned) return null;
+        const { corner, along } = turned;
+        const { kind, said, seen } = wordsOf(plan, at);
+        const forward = held && sameEdge(held.at, at) ? held.forward : isForward(turned);
+        const reach = times(along, (forward ? arm : -arm) / sheet.scale);
+        const [handle, end] = [plus(corner, reach), minus(corner, reach)];
+        const [cx, cy] = toPixels(sheet, handle);
+        const [x, y] = toPixels(sheet, plus(corner, times(reach, 1.4)));
+        const isSelected = selected !== null && sameEdge(selected, at);
+        const isChosen = chosen.some((c) => sameEdge(c, at));
+        const bearing = bearingOf(along);
+        const direction = `direction ${bearing.toFixed(1)} degrees`;
+        const grip = (event: PointerEvent) => grips.down(event, "turn", at);
+        return (
+          <g
+            key={`${at.ring} ${at.edge}`}
+            class={`edge turned ${kind}${isSelected ? " selected" : ""}${isChosen ? " chosen" : ""}`}
+          >
+            <line class="seen" {...lineOf(sheet, end, handle)} />
+            <line
+              class="grip"
+              {...lineOf(sheet, end, handle)}
+              tabindex={0}
+              role="button"
+              aria-pressed={isSelected}
+              aria-label={`corner edge ${at.edge}${inHole(at)}, ${direction}, ${said}`}
+              onPointerDown={grip}
+              onKeyDown={(event) => grips.key(event, at, "turn")}
+              onKeyUp={grips.settle}
+              onBlur={grips.settle}
+            >
+              <title>Direction of the eaves of a roof plane: drag it to turn the plane</title>
+            </line>
+            <circle class="seen" cx={cx} cy={cy} r={5} />
+            <circle
+              class="grip"
+              cx={cx}
+              cy={cy}
+              r={10}
+              tabindex={0}
+              role="slider"
+              aria-label={`Direction of corner edge ${at.edge}${inHole(at)}, degrees`}
+              aria-valuenow={Number(bearing.toFixed(2))}
+              aria-valuetext={`${bearing.toFixed(1)} degrees`}
+              onPointerDown={grip}
+              onKeyDown={(event) => grips.key(event, at, "turn")}
+              onKeyUp={grips.settle}
+              onBlur={grips.settle}
+            >
+              <title>Drag it to turn the roof plane. Arrow keys turn it by 0.5°</title>
+            </circle>
+            {labelled && (
+              <text class="pitch" x={x} y={y}>
+                {seen}
+              </text>
+            )}
+          </g>
+        );
+      })}
     </>
   );
 }
@@ -182,7 +273,10 @@ export function Corners(props: {
   return (
     <>
       {edgesOf(plan).filter((at) => !hidden.has(at.ring)).map((at) => {
-        const p = ringOf(plan, at.ring)!.points[at.edge]!;
+        const ring = ringOf(plan, at.ring)!;
+        // Both ends of a corner edge are one corner.
+        if (isCorner(plan, { ring: at.ring, edge: before(ring, at.edge) })) return null;
+        const p = isCorner(plan, at) ? cornerAt(ring, at.edge) : ring.points[at.edge]!;
         const [cx, cy] = toPixels(sheet, p);
         const isSelected = selected !== null && sameEdge(selected, at);
         return (

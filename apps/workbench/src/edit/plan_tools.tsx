@@ -13,6 +13,9 @@ export function PlanTools(props: {
   structure: "dormer" | "structure" | null; // the part is one on the roof of another part
   touching: Neighbour[];
   partner: Neighbour | undefined;
+  turn: "make" | "remove" | null; // what can be done with the selected edge
+  turning: boolean; // a direction is being looked for
+  onTurn(): void;
   onTool(tool: Tool): void;
   onFill(): void;
   onDelete(): void;
@@ -79,6 +82,22 @@ export function PlanTools(props: {
       >
         {structure === "dormer" ? "Delete dormer" : "Delete part"}
       </button>
+      {props.turn === "make" && (
+        <button
+          type="button"
+          disabled={props.turning}
+          aria-busy={props.turning}
+          onClick={props.onTurn}
+          title="Give the roof plane of the selected edge a direction of its own, where its wall is not parallel to the ridge: a corner edge is made, which can be turned, and the wall goes up to the roof"
+        >
+          Turn roof
+        </button>
+      )}
+      {props.turn === "remove" && (
+        <button type="button" onClick={props.onTurn} title="Remove the corner edge: its roof goes back to the wall beside it (Delete)">
+          Remove corner edge
+        </button>
+      )}
       {props.hole && (
         <button type="button" onClick={props.onFill} title="Fill the courtyard of the selected edge">
           Fill courtyard

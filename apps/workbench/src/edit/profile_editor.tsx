@@ -21,7 +21,7 @@ import {
 import { session } from "./here";
 import { capOver } from "./handles";
 import { cubicMetres, metres } from "./numbers";
-import { changeProfiles, collinear, edgesOf, inScope, opposite, profileOf, ringOf, setProfile, type EdgeAt, type Scope } from "./plan";
+import { changeProfiles, collinear, edgeName, edgesOf, inScope, opposite, profileOf, ringOf, setProfile, type EdgeAt, type Scope } from "./plan";
 import {
   continued,
   degreesOf,
@@ -46,6 +46,7 @@ import { onSeveral, type Change, type PartAt } from "./several";
 import { fitted, panned, toMetres, toPixels, zoomed } from "./sheet";
 import { known, rounded, snapProfilePoint, type ProfileSnap } from "./snap";
 import { count, rmse } from "../panels/words";
+import { bearingOf, capAbove, liftOf, turnedAt, turnedTo, wallBeside } from "./turned_roof";
 import { useSection } from "./use_section";
 import { useSheet } from "./use_sheet";
 import { distance, minus } from "./vector";
@@ -115,7 +116,7 @@ export function ProfileEditor() {
   // ---- changes of the plan
 
   const withProfile = (from: api.Plan, changed: Profile) => setProfile(from, inScope(from, at, scope.value), changed);
-  const who = targets.length === 1 ? `edge ${at.edge} of ${part}` : `${targets.length} edges of ${part}`;
+  const who = targets.length === 1 ? `${edgeName(plan, at)} of ${part}` : `${targets.length} edges of ${part}`;
   const typed = (what: string, changed: api.Plan) => session.propose(what, withPlan(changed));
   const typedProfile = (what: string, changed: Profile) => typed(what, withProfile(plan, changed));
   const others = state.also.value.filter((a) => a.building !== selection.building || a.part !== part);
@@ -153,6 +154,14 @@ export function ProfileEditor() {
       const rises = edges.map((e) => height - (gutterOf(profileOf(from, e)!) ?? height));
       return { ...changed, cap: capOver(from, ridgeAt(of), Math.max(0, ...rises)) };
     });
+
+  const direction = turnedAt(plan, at);
+  const typedDirection = (bearing: number) => {
+    const next = turnedTo(plan, at, bearing);
+    const is = turnedAt(next, at)!;
+    const cap = capAbove(plan, ridge ?? 0, liftOf(next, at, direction!.along, is.along));
+    typed(`roof of ${who} turned to ${bearingOf(is.along).toFixed(1)}°`, { ...next, cap });
+  };
 
   const snap = (event: { altKey: boolean }, from: api.Plan): ProfileSnap => {
     const changing = inScope(from, at, scope.value);
@@ -356,7 +365,7 @@ export function ProfileEditor() {
     const edges = copyTargets[copyTo.value];
     if (edges.length)
       typed(
-        `profile of edge ${at.edge} of ${part} copied to ${copyNames[copyTo.value]}`,
+        `profile of ${edgeName(plan, at)} of ${part} copied to ${copyNames[copyTo.value]}`,
         setProfile(plan, [...edges, at], profile),
       );
   };
@@ -371,7 +380,7 @@ export function ProfileEditor() {
   const ghostEnd = ghost && continued(ghost, top);
 
   const instructions =
-    `Profile of edge ${at.edge} of ${part}. Tab moves from point to point. Arrow keys move a point by 0.1 metres, with ` +
+    `Profile of ${edgeName(plan, at)} of ${part}. Tab moves from point to point. Arrow keys move a point by 0.1 metres, with ` +
     "Shift by 1 metre, with Alt by 0.01 metres. Insert adds a point, Delete removes one, Escape cancels.";
 
   return (
@@ -384,7 +393,7 @@ export function ProfileEditor() {
             value={scope.value}
             onChange={(event) => (scope.value = event.currentTarget.value as Scope)}
           >
-            <option value="edge">edge {at.edge} only</option>
+            <option value="edge">{edgeName(plan, at)} only</option>
             <option value="sharing">{count(sharing, "edge")} with this profile</option>
             <option value="part">all {edgesOf(plan).length} edges</option>
           </select>
@@ -512,6 +521,9 @@ export function ProfileEditor() {
       <ProfileFields
         plan={plan}
         part={part}
+        direction={direction && bearingOf(direction.along)}
+        beside={direction && wallBeside(plan, at)}
+        onDirection={typedDirection}
         profile={profile}
         who={who}
         point={point.value}

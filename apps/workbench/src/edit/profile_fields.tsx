@@ -18,6 +18,10 @@ export function ProfileFields(props: {
   plan: Plan;
   part: string;
   profile: Profile;
+  /** Of a corner edge: degrees clockwise from north, and the wall that it is nearest to. */
+  direction: number | null;
+  beside: { at: { edge: number }; degrees: number } | null;
+  onDirection(bearing: number): void;
   who: string; // description of these edges
   point: number | null;
   share: number;
@@ -61,6 +65,16 @@ export function ProfileFields(props: {
         <span class="edit-several" title="A cap or a base goes to every selected part; a gutter, a pitch or a point to the edges of the others that face the same way, or to all edges with “Apply to all edges”">
           Values go to {props.several} selected parts
         </span>
+      )}
+      {props.direction !== null && (
+        <NumberField
+          label="Direction"
+          unit="°"
+          digits={2}
+          value={props.direction}
+          title={`Direction of the eaves, clockwise from north. ${props.beside ? `It is ${props.beside.degrees.toFixed(1)}° from edge ${props.beside.at.edge}. ` : ""}It stays between the directions of the two walls`}
+          onValue={props.onDirection}
+        />
       )}
       <NumberField
         label="Gutter"

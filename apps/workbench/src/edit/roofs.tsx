@@ -7,7 +7,7 @@ import { planeOf } from "./fitting";
 import { session } from "./here";
 import { metres } from "./numbers";
 import { type Choice, type Reach, chosenOffer, discardShown, keepShown, leave, losing, making, reach, show, shownChoice } from "./offers";
-import { profileOf } from "./plan";
+import { edgeName, isCorner, profileOf } from "./plan";
 import { gutterOf, slopes } from "./profile";
 import { shapes } from "./shapes";
 import { structureAt } from "./structures";
@@ -48,7 +48,7 @@ export function Roofs() {
     choices.push({
       choice: "plane",
       name: "Fit plane",
-      meaning: `Move the roof plane of edge ${edge!.edge} to where the scan has it: its gutter and pitch. Other planes stay${sides > 1 ? `. It goes along ${sides} edges on one line` : ""}`,
+      meaning: `Move the roof plane of ${edgeName(state.selectedPlan.value!, edge!)} to where the scan has it: its ${isCorner(state.selectedPlan.value!, edge!) ? "gutter, pitch and direction" : "gutter and pitch"}. Other planes stay${sides > 1 ? `. It goes along ${sides} edges on one line` : ""}`,
     });
   const shown = shownChoice.value;
   const current = making.value ?? chosenOffer.value?.choice ?? choices[0]!.choice;

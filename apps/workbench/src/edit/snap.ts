@@ -1,6 +1,7 @@
 // Snapping of dragged corners, edges and profile points: to near geometry, otherwise to whole centimetres.
 import type { Plan, Point2, ProfilePoint } from "../api/types";
-import { after, before, edgesOf, endsOf, profileOf, ringOf, sameEdge, type EdgeAt } from "./plan";
+import { apart } from "./corner_edges";
+import { after, before, edgeName, edgesOf, endsOf, isCorner, profileOf, ringOf, sameEdge, type EdgeAt } from "./plan";
 import { held, type Profile } from "./profile";
 import {
   cross,
@@ -51,7 +52,10 @@ export const rounded = (value: number, step: number) => {
 /** Corners and edges of other plans, and those of the plan itself that do not move. */
 export function surroundings(plan: Plan, others: Plan[], moves: (at: EdgeAt) => boolean): Surroundings {
   const found: Surroundings = { corners: [], edges: [] };
-  const add = (p: Plan, skip: (at: EdgeAt) => boolean) => {
+  const add = (whole: Plan, moves: (at: EdgeAt) => boolean) => {
+    const { plan: p, numberOf } = apart(whole); // both ends of a corner edge are one corner
+    const moving = edgesOf(whole).filter(moves).map((at) => ({ ring: at.ring, edge: numberOf(at.ring, at.edge) }));
+    const skip = (at: EdgeAt) => moving.some((m) => sameEdge(m, at));
     for (const at of edgesOf(p)) {
       const ring = ringOf(p, at.ring)!;
       if (skip(at)) continue;
@@ -66,7 +70,8 @@ export function surroundings(plan: Plan, others: Plan[], moves: (at: EdgeAt) => 
 
 /** A move of a whole part: along its first edge or across it if it is nearly that. */
 export function snapMove(plan: Plan, by: Point2, { reach, step }: Snap): Point2 {
-  const along = unit(minus(plan.outer.points[1]!, plan.outer.points[0]!));
+  const { points } = apart(plan).plan.outer;
+  const along = unit(minus(points[1]!, points[0]!));
   if (!along) return by;
   let [a, b] = [dot(by, along), dot(by, turnedLeft(along))];
   if (reach > 0 && Math.abs(a) < Math.abs(b) / 4) a = 0;
@@ -113,7 +118,11 @@ export function mainDirection(plan: Plan, except: (at: EdgeAt) => boolean): Poin
 }
 
 /** Snaps a corner that is dragged to `to`: to a corner, an intersection of two lines, a line, the grid, or rounds it. */
-export function snapVertex(plan: Plan, at: EdgeAt, to: Point2, around: Surroundings, snap: Snap): SnappedPoint {
+export function snapVertex(whole: Plan, corner: EdgeAt, to: Point2, around: Surroundings, snap: Snap): SnappedPoint {
+  const { plan, numberOf } = apart(whole);
+  return snapCorner(plan, { ring: corner.ring, edge: numberOf(corner.ring, corner.edge) }, to, around, snap);
+}
+function snapCorner(plan: Plan, at: EdgeAt, to: Point2, around: Surroundings, snap: Snap): SnappedPoint {
   const ring = ringOf(plan, at.ring);
   if (!ring || snap.reach <= 0) return { at: unsnapped(to, { ...snap, grid: 0 }), guides: [] };
   const previous = before(ring, at.edge);
@@ -224,6 +233,40 @@ export function snapEdge(
   if (snap.grid > 0 && Math.abs(rounded(by, snap.grid) - by) < snap.reach)
     return { by: rounded(by, snap.grid), guides: [] };
   return { by: rounded(by, snap.step), guides: [] };
+}
+
+/** Radians; a direction snaps to those of other edges within this. */
+const turnReach = (2.5 * Math.PI) / 180;
+
+/** Snaps the direction of a corner edge: parallel or at a right angle to another edge; otherwise it is rounded to 0.1°. */
+export function snapTurn(plan: Plan, at: EdgeAt, along: Point2, snap: Snap): { along: Point2; guides: Guide[] } {
+  const corner = endsOf(plan, at)![0];
+  const angle = (a: Point2, b: Point2) => Math.abs(Math.atan2(cross(a, b), dot(a, b)));
+  let best: { along: Point2; words: string; away: number } | null = null;
+  if (snap.reach > 0)
+    for (const e of edgesOf(plan)) {
+      const [a, b] = endsOf(plan, e)!;
+      const own = unit(minus(b, a));
+      if (!own || sameEdge(e, at)) continue;
+      for (const [way, words] of [
+        [own, "parallel to"],
+        [times(own, -1), "parallel to"],
+        [turnedLeft(own), "at a right angle to"],
+        [times(turnedLeft(own), -1), "at a right angle to"],
+      ] as const) {
+        const away = angle(along, way);
+        // Of edges in the same direction the first one, but walls before corner edges.
+        const least = best ? best.away - (isCorner(plan, e) ? 1e-3 : 1e-6) : turnReach;
+        if (away < least) best = { along: way, words: `${words} ${edgeName(plan, e)}`, away };
+      }
+    }
+  if (best) {
+    const arm = times(best.along, 6 * snap.reach);
+    return { along: best.along, guides: [{ words: best.words, from: plus(corner, arm), to: minus(corner, arm) }] };
+  }
+  const step = ((snap.step < 0.01 ? 0.01 : 0.1) * Math.PI) / 180;
+  const north = Math.round(Math.atan2(along[0], along[1]) / step) * step;
+  return { along: [Math.sin(north), Math.cos(north)], guides: [] };
 }
 
 export interface ProfileSnap extends Snap {

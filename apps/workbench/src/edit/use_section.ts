@@ -4,7 +4,8 @@ import { useEffect } from "preact/hooks";
 import { client } from "../actions";
 import type * as api from "../api/types";
 import * as state from "../state";
-import { endsOf, type EdgeAt } from "./plan";
+import { endsOf, isCorner, type EdgeAt } from "./plan";
+import { acrossTurned } from "./turned_roof";
 
 /** Milliseconds without changes before it is fetched. */
 const pause = 60;
@@ -31,7 +32,11 @@ export function useSection(
     const { building, part } = selection;
     const timer = setTimeout(() => {
       const drafted = state.draft.value?.changes.some((c) => c.building === building);
-      const asked = drafted
+      // A corner edge has no extent: the section is taken along the eaves of its plane.
+      const eaves = isCorner(plan, at) ? acrossTurned(plan, at) : null;
+      const asked = eaves
+        ? client.sectionOf(run, { plan: eaves, ring: 0, edge: 0, share })
+        : drafted
         ? client.sectionOf(run, { plan, ring: at.ring, edge: at.edge, share })
         : client.section(run, { building, part: part!, ring: at.ring, edge: at.edge, share });
       asked.then(

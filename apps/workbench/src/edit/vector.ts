@@ -10,6 +10,8 @@ export const distance = (a: Point2, b: Point2) => Math.hypot(a[0] - b[0], a[1] -
 export const middle = (a: Point2, b: Point2): Point2 => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
 /** To the left: the inside of a counter-clockwise ring. */
 export const turnedLeft = (a: Point2): Point2 => [-a[1], a[0]];
+/** Counter-clockwise, by an angle. */
+export const rotated = (a: Point2, angle: number): Point2 => plus(times(a, Math.cos(angle)), times(turnedLeft(a), Math.sin(angle)));
 
 /** Of length 1; null for a vector without length. */
 export function unit(a: Point2): Point2 | null {

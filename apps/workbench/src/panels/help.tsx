@@ -31,6 +31,7 @@ const pointer: [what: string, does: string][] = [
   ["click", "select a building, part and edge"],
   ["Shift click", "select another part: to merge them, or to change all of them"],
   ["drag a handle of the roof", "move a ridge, an eave or a face"],
+  ["drag a dashed line of the plan", "turn the roof plane that rises from that corner"],
   ["arrows on a roof shape", "show the next shape; Enter keeps it, Esc goes back"],
   ["arrows, Shift arrows, + −", "move, rotate and zoom while the view has the focus"],
 ];

@@ -45,6 +45,10 @@ const sections: [title: string, text: string][] = [
     "Select a part and drag its corners, edges and profile points, or type numbers. Changes are saved when you release the mouse. Invalid plans are shown in red and are not saved. Undo has no limit.",
   ],
   [
+    "Roofs over oblique walls",
+    "Where a wall is not parallel to the ridge, select it and press “Turn roof”: its roof rises from a corner edge, a dashed line through a corner in the direction of the eaves, and the wall goes up to the roof. Drag the handle of the line, use the arrow keys (0.5°, Shift 5°), or type the direction, clockwise from north. “Fit plane” fits it to the scan. “Remove corner edge” gives the roof back to the wall.",
+  ],
+  [
     "Roofs",
     "Flat to Mansard show the best roof of that kind for the scan, with the error before and after. Keep or Enter saves it, Discard or Esc goes back; nothing is saved before. Fit moves the roof as it is to the scan, Fit plane the plane of the selected edge alone, and on a dormer its place and size. The list beside them extends this to the selected parts or to the whole row.",
   ],

@@ -1,6 +1,9 @@
 // Data of the plots: the profiles of a block (the paper's Figure 10), and the histogram of errors.
 import type { Building } from "../api/types";
 import type { LoadedMap } from "../state";
+import { endsOf } from "../edit/plan";
+import { wallBeside } from "../edit/turned_roof";
+import { distance } from "../edit/vector";
 import { capped, reaches } from "../view/geometry";
 
 export interface EdgeProfile {
@@ -16,11 +19,13 @@ export function edgeProfiles(buildings: Iterable<Building>): EdgeProfile[] {
       const { plan } = part;
       const reach = reaches(part);
       [plan.outer, ...plan.holes].forEach((ring, r) =>
-        ring.points.forEach((a, i) => {
-          const b = ring.points[(i + 1) % ring.points.length]!;
+        ring.points.forEach((_, i) => {
+          // The roof of a corner edge is as long as its wall.
+          const at = { ring: r, edge: i };
+          const [a, b] = endsOf(plan, wallBeside(plan, at)?.at ?? at)!;
           const profile = plan.profiles[ring.profile_of_edge[i]!];
           if (!profile) return;
-          all.push({ length: Math.hypot(b[0] - a[0], b[1] - a[1]), points: capped(profile, reach(r, i)) });
+          all.push({ length: distance(a, b), points: capped(profile, reach(r, i)) });
         }),
       );
     }
