@@ -158,7 +158,7 @@ auto turn(Judged judged, const Judge& judge) -> Judged {
     for (const Plan& plan : turned_roofs(judged, judge)) {
       if (judge.is_tired(plan)) break;
       auto next = judge(plan);
-      if (!next) continue;
+      if (!next || next->cost > judge.options().search.hopeless * judged.cost) continue;
       *next = settle(std::move(*next), judge);
       if (cheaper(next->cost, best ? best->cost : judged.cost, judge.options().same_cost) && judge.stands(next->plan))
         best = std::move(*next);

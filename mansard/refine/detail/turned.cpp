@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -182,7 +183,7 @@ auto with_slope(const Plan& plan, const Slope& slope, std::size_t corner, const 
 }  // namespace
 
 auto turned_roofs(const Judged& judged, const Judge& judge) -> std::vector<Plan> {
-  constexpr std::size_t most_slopes = 3, most_corners = 2;
+  constexpr std::size_t most_slopes = 3;
   const Site& site = judge.site();
   const Options& options = judge.options();
   std::vector<std::pair<Slope, Point2>> slopes;  // and the middle of the samples
@@ -196,13 +197,14 @@ auto turned_roofs(const Judged& judged, const Judge& judge) -> std::vector<Plan>
   if (slopes.size() > most_slopes) slopes.resize(most_slopes);
   std::vector<Plan> out;
   for (const auto& [slope, middle] : slopes) {
-    std::vector<std::pair<double, Plan>> from;
-    for (std::size_t corner = 0; corner < judged.plan.outer.points.size(); ++corner)
-      if (auto plan = with_slope(judged.plan, slope, corner, options))
-        from.emplace_back(length(judged.plan.outer.points[corner] - middle), std::move(*plan));
-    rank(
-        from, [](const auto& one) { return one.first; }, same_length);
-    for (std::size_t i = 0; i < std::min(from.size(), most_corners); ++i) out.push_back(std::move(from[i].second));
+    std::optional<Plan> nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t corner = 0; corner < judged.plan.outer.points.size(); ++corner) {
+      const double off = length(judged.plan.outer.points[corner] - middle);
+      if (off >= least - same_distance) continue;
+      if (auto plan = with_slope(judged.plan, slope, corner, options)) nearest = std::move(*plan), least = off;
+    }
+    if (nearest) out.push_back(*std::move(nearest));
   }
   return out;
 }

@@ -224,7 +224,8 @@ auto Work::united(const Piece& a, const Piece& b) const -> std::optional<Union> 
   Site site = both_of(a, b, *polygon);
   const Origin origins[]{{a.draft, a.roof.plan}, {b.draft, b.roof.plan}};
   Draft draft = draft_of(origins, site, options_);
-  auto made = roofed(std::min(a.draft_index, b.draft_index), std::move(site), std::move(draft), Search::quick);
+  auto made =
+      roofed(std::min(a.draft_index, b.draft_index), std::move(site), std::move(draft), Search::quick, cost_of(a, b));
   if (!made) return std::nullopt;
   return Union{std::move(*polygon), std::move(made->draft), std::move(made->roof), std::move(made->known)};
 }
