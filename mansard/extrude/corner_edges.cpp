@@ -15,7 +15,7 @@ constexpr double least_turn = 0.0087, sharpest = -0.866;
 /// m; edges beside a corner edge are longer than it by as much as both of its ends are off the corner, and more.
 constexpr double least_beside = 4 * longest_corner_edge;
 
-auto at(const geometry::Ring& ring, std::size_t i) -> Point2 { return ring[i % ring.size()]; }
+auto wrapped(const geometry::Ring& ring, std::size_t i) -> Point2 { return ring[i % ring.size()]; }
 
 }  // namespace
 
@@ -38,11 +38,12 @@ auto ends_at(Point2 corner, Point2 before, Point2 along, Point2 after) -> std::p
 auto is_corner_edge(const geometry::Ring& ring, std::size_t edge) -> bool {
   const std::size_t n = ring.size();
   if (n < 4) return false;
-  const Point2 own = at(ring, edge + 1) - at(ring, edge);
+  const Point2 own = wrapped(ring, edge + 1) - wrapped(ring, edge);
   if (std::abs(own.x) >= longest_corner_edge || std::abs(own.y) >= longest_corner_edge) return false;
   const double size = length(own);
   if (size >= longest_corner_edge || size == 0) return false;
-  const Point2 before = at(ring, edge) - at(ring, edge + n - 1), after = at(ring, edge + 2) - at(ring, edge + 1);
+  const Point2 before = wrapped(ring, edge) - wrapped(ring, edge + n - 1),
+               after = wrapped(ring, edge + 2) - wrapped(ring, edge + 1);
   if (length(before) < least_beside || length(after) < least_beside) return false;
   return detail::lies_between(normalised(before), normalised(own), normalised(after));
 }
@@ -54,9 +55,9 @@ auto corner_edges_of(const geometry::Ring& ring) -> std::vector<bool> {
 }
 
 auto corner_at(const geometry::Ring& ring, std::size_t corner_edge) -> Point2 {
-  const Point2 start = at(ring, corner_edge), end = at(ring, corner_edge + 1);
-  const Point2 before = normalised(start - at(ring, corner_edge + ring.size() - 1)),
-               after = normalised(at(ring, corner_edge + 2) - end);
+  const Point2 start = wrapped(ring, corner_edge), end = wrapped(ring, corner_edge + 1);
+  const Point2 before = normalised(start - wrapped(ring, corner_edge + ring.size() - 1)),
+               after = normalised(wrapped(ring, corner_edge + 2) - end);
   return start + cross(end - start, after) / cross(before, after) * before;
 }
 
@@ -80,7 +81,8 @@ auto with_corner_edge(const model::PlanRing& ring, std::size_t corner, Point2 al
     -> std::optional<model::PlanRing> {
   const auto& points = ring.points;
   const std::size_t n = points.size();
-  const Point2 before = points[corner] - at(points, corner + n - 1), after = at(points, corner + 1) - points[corner];
+  const Point2 before = points[corner] - wrapped(points, corner + n - 1),
+               after = wrapped(points, corner + 1) - points[corner];
   if (n < 3 || length(before) < 2 * least_beside || length(after) < 2 * least_beside) return std::nullopt;
   if (!detail::lies_between(normalised(before), along, normalised(after))) return std::nullopt;
   model::PlanRing out = ring;

@@ -12,14 +12,14 @@ namespace {
 
 using geometry::Point2;
 
-auto place(const ExactPoint& p) -> Point2 { return {p.x.get_d(), p.y.get_d()}; }
+auto in_doubles(const ExactPoint& p) -> Point2 { return {p.x.get_d(), p.y.get_d()}; }
 
 /// The direction of an edge of the ring, or one at right angles to that, where no point of the ring is moved by more
 /// than `most` m for it; else that of the table which is nearest.
 auto direction_like(const std::vector<CanonicalEdge>& ring, const std::vector<ExactPoint>& corners, Point2 along,
                     double most) -> Direction {
   geometry::Box2 box;
-  for (const auto& corner : corners) box.add(place(corner));
+  for (const auto& corner : corners) box.add(in_doubles(corner));
   const double off = most / length(box.most - box.least);
   std::optional<Direction> best;
   double least = off;
@@ -54,7 +54,7 @@ auto located(const Footprint& footprint, std::size_t r, const Source& source, do
     std::optional<std::size_t> nearest;
     double least = within;
     for (std::size_t i = 0; i < n; ++i) {
-      const double off = length(place(corners[i]) + footprint.origin - edge.corner);
+      const double off = length(in_doubles(corners[i]) + footprint.origin - edge.corner);
       if (ring[i].joint || off > least) continue;
       least = off;
       nearest = i;

@@ -89,7 +89,8 @@ auto other_place(const model::Scene& scene, const Options& options, const base::
   const Point3 shift{along(0), along(1), along(2)};
   const auto box = geometry::Box3::of(scene.mesh.vertices);
   // Of a few footprints some fit anything: two standard deviations of the correlation of as many that do not belong
-  // together (1 / √n), and what half of them that are gone still leave of one that does.
+  // together (1 / √n), and what half of them that are gone still leave of one that does; or all of them are high.
+  constexpr double nearly_all = 0.9;
   const double least = std::min(0.6, 2 / std::sqrt(static_cast<double>(outlines.size())));
   geometry::Box2 around;
   for (const auto& outline : outlines) around.include(geometry::bounds(outline.outer));
@@ -109,8 +110,8 @@ auto other_place(const model::Scene& scene, const Options& options, const base::
     // In the right unit it is as large as the footprints' surroundings, and no less so than before.
     if (candidate.code == "scan-units" && overlap(plan, around) < overlap(xy_of(box), around)) continue;
     const auto match = align::match_at(changed, outlines, 0, 0);
-    if (!match || !fits(*match) || match->correlation < least || (found && match->correlation <= found->correlation))
-      continue;
+    if (!match || !fits(*match) || (match->correlation < least && match->inside < nearly_all)) continue;
+    if (found && match->correlation <= found->correlation) continue;
     found = match;
     best = &candidate;
   }

@@ -22,7 +22,7 @@ using geometry::Point3;
 using model::Plan;
 
 /// A roof plane that samples are on, in the heights of the site.
-struct Slope {
+struct Inclined {
   Point3 middle;
   Point2 rise;      ///< per run
   double gain = 0;  ///< m²·m²: what it saves against the roof, on these samples
@@ -33,10 +33,10 @@ struct Slope {
 using Group = std::vector<std::size_t>;
 
 /// The plane through some samples, those far off it left out; none where they are too few, or on one line.
-auto plane_through(const Group& group, const Site& site, const Options& options) -> std::optional<Slope> {
+auto plane_through(const Group& group, const Site& site, const Options& options) -> std::optional<Inclined> {
   constexpr int rounds = 4;
   constexpr double flat_share = 1e-3;  // of the spread: what is narrower across is a line
-  std::optional<Slope> best;
+  std::optional<Inclined> best;
   for (int round = 0; round < rounds; ++round) {
     double weight = 0;
     Point3 sum;
@@ -54,7 +54,7 @@ auto plane_through(const Group& group, const Site& site, const Options& options)
     each([&](Point3 p, double w) { equations.add(p.x - middle.x, p.y - middle.y, p.z - middle.z, w); });
     const double spread = equations.xx + equations.yy;
     if (!(equations.determinant() > flat_share * spread * spread)) return std::nullopt;
-    best = Slope{middle, equations.slopes(), 0};
+    best = Inclined{middle, equations.slopes(), 0};
   }
   return best;
 }
@@ -92,11 +92,11 @@ auto groups_of(const Judged& judged, const Site& site, const Options& options) -
 }
 
 auto slope_of(const Group& group, const Judged& judged, const Site& site, const Options& options)
-    -> std::optional<Slope> {
-  std::optional<Slope> slope;
+    -> std::optional<Inclined> {
+  std::optional<Inclined> slope;
   if (site.of_points) {
     const auto& plane = site.planes[site.plane_of[group.front()]];
-    slope = Slope{{plane.middle.x, plane.middle.y, plane.middle.z - site.base}, plane.slope, 0};
+    slope = Inclined{{plane.middle.x, plane.middle.y, plane.middle.z - site.base}, plane.slope, 0};
   } else {
     slope = plane_through(group, site, options);
   }
@@ -116,16 +116,16 @@ auto slope_of(const Group& group, const Judged& judged, const Site& site, const 
 
 /// The roof's own planes where they go on beyond their faces: samples off the roof that lie on one. An obstacle in the
 /// outline, the wedge of a wing, keeps the plane of one side from what is behind it.
-auto continued_slopes(const Judged& judged, const Site& site, const Options& options) -> std::vector<Slope> {
+auto continued_slopes(const Judged& judged, const Site& site, const Options& options) -> std::vector<Inclined> {
   std::vector<std::size_t> off;
   for (std::size_t i = 0; i < site.cells.size(); ++i)
     if (std::abs(judged.view.z_of(site, i) - site.z[i]) > options.lines.robust) off.push_back(i);
-  std::vector<Slope> out;
+  std::vector<Inclined> out;
   if (std::ssize(off) < options.lines.min_samples) return out;
   for (const auto& face : judged.sketch.faces) {
     if (face.kind != model::FaceKind::side || face.normal.z <= wall_normal) continue;
     const Point3 at = judged.sketch.vertices[face.loops.front().front()];
-    Slope slope{{at.x, at.y, at.z - site.base}, {-face.normal.x / face.normal.z, -face.normal.y / face.normal.z}, 0};
+    Inclined slope{{at.x, at.y, at.z - site.base}, {-face.normal.x / face.normal.z, -face.normal.y / face.normal.z}, 0};
     Point2 sum;
     double count = 0;
     for (const std::size_t i : off) {
@@ -145,7 +145,7 @@ auto continued_slopes(const Judged& judged, const Site& site, const Options& opt
 
 /// The plan with the plane from one of its corners, and the walls on both sides of that, as far as the plane rises from
 /// them, up to it.
-auto with_slope(const Plan& plan, const Slope& slope, std::size_t corner, const Options& options)
+auto with_slope(const Plan& plan, const Inclined& slope, std::size_t corner, const Options& options)
     -> std::optional<Plan> {
   constexpr double most_turn = 0.34;  // the sine of 20°: what is more oblique is no side of a roof, and mostly noise
   constexpr double same_direction = 0.035;  // the sine of 2°
@@ -186,11 +186,11 @@ auto turned_roofs(const Judged& judged, const Judge& judge) -> std::vector<Plan>
   constexpr std::size_t most_slopes = 3;
   const Site& site = judge.site();
   const Options& options = judge.options();
-  std::vector<std::pair<Slope, Point2>> slopes;  // and the middle of the samples
+  std::vector<std::pair<Inclined, Point2>> slopes;  // and the middle of the samples
   for (const Group& group : groups_of(judged, site, options))
     if (const auto slope = slope_of(group, judged, site, options); slope && slope->gain > options.face_price)
       slopes.emplace_back(*slope, xy(slope->middle));
-  for (const Slope& slope : continued_slopes(judged, site, options))
+  for (const Inclined& slope : continued_slopes(judged, site, options))
     if (slope.gain > options.face_price) slopes.emplace_back(slope, xy(slope.middle));
   rank(
       slopes, [](const auto& one) { return -one.first.gain; }, options.same_cost);
