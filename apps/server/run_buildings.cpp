@@ -8,7 +8,7 @@
 namespace mansard::server {
 namespace {
 
-constexpr std::size_t most_kept = 10'000;  // buildings, of some 2 kB each
+constexpr std::size_t most_buildings_kept = 10'000;  // buildings, of some 2 kB each
 
 auto plans_of(const model::Building& building) -> edit::Parts {
   std::vector<edit::NamedPlan> parts;
@@ -69,7 +69,7 @@ auto RunBuildings::plans(std::size_t building) const -> edit::Parts {
   if (kept_at_.contains(building)) return plans;  // read by two threads
   kept_.emplace_front(building, plans);
   kept_at_[building] = kept_.begin();
-  if (kept_.size() > most_kept) {
+  if (kept_.size() > most_buildings_kept) {
     kept_at_.erase(kept_.back().first);
     kept_.pop_back();
   }
