@@ -1,11 +1,9 @@
 // Edges of no extent at the corners of a plan: they give a roof plane a direction that no wall has.
 //
-//      plan                    An edge's roof rises across the edge. Where a side is not parallel to the ridge, its
-//      wall
-//   +----------+--.            goes up to the roof (a profile that is wall alone), and the roof rises from an edge at
-//   one |          |   `-- corner  of its corners, whose direction is that of the roof's eaves. The edge is shorter
-//   than a
-//   +----------+-----` edge    millimetre: no wall of it is seen, and in the solid it is a corner like any other.
+//   o--.      An edge's roof rises across the edge. Where a side is not parallel to the ridge, its wall goes up to the
+//   |   `--+  roof (a profile that is wall alone), and the roof rises from an edge at one of its corners, o, whose
+//   |      |  direction is that of the roof's eaves. The edge is shorter than a millimetre: no wall of it is seen,
+//   +------+  and in the solid it is a corner like any other.
 #pragma once
 
 #include <cstddef>

@@ -94,7 +94,7 @@ auto other_place(const model::Scene& scene, const Options& options, const base::
   const double least = std::min(0.6, 2 / std::sqrt(static_cast<double>(outlines.size())));
   geometry::Box2 around;
   for (const auto& outline : outlines) around.include(geometry::bounds(outline.outer));
-  const auto xy_of = [](const geometry::Box3& b) { return geometry::Box2{xy(b.least), xy(b.most)}; };
+  const double overlap_here = overlap(geometry::Box2::of(scene.mesh.vertices), around);
   const Candidate* best = nullptr;
   std::optional<align::Match> found;
   const auto candidates = candidates_of(scene, options, 0.5 * (box.least + box.most) + shift);
@@ -108,7 +108,7 @@ auto other_place(const model::Scene& scene, const Options& options, const base::
     const auto plan = geometry::Box2::of(changed.vertices);
     if (plan.most.x - plan.least.x > largest || plan.most.y - plan.least.y > largest) continue;
     // In the right unit it is as large as the footprints' surroundings, and no less so than before.
-    if (candidate.code == "scan-units" && overlap(plan, around) < overlap(xy_of(box), around)) continue;
+    if (candidate.code == "scan-units" && overlap(plan, around) < overlap_here) continue;
     const auto match = align::match_at(changed, outlines, 0, 0);
     if (!match || !fits(*match) || (match->correlation < least && match->inside < nearly_all)) continue;
     if (found && match->correlation <= found->correlation) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -59,11 +60,11 @@ auto plane_through(const Group& group, const Site& site, const Options& options)
   return best;
 }
 
-/// Of points, those on each of their planes. Of a surface, those over each face that rises from an edge, where most of
-/// them are on one plane: what a roof is not yet, its faces mix, and a plane through that explains nothing.
-auto groups_of(const Judged& judged, const Site& site, const Options& options) -> std::vector<Group> {
+/// Of points, their own planes. Of a surface, that of the samples over each face that rises from an edge, where most of
+/// them are on it: what a roof is not yet, its faces mix, and a plane through that explains nothing.
+auto seen_slopes(const Judged& judged, const Site& site, const Options& options) -> std::vector<Inclined> {
   constexpr double on_one_plane = 0.8;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Group> groups;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Group> groups;  // by plane, or by edge and part of its profile
   for (std::size_t i = 0; i < site.cells.size(); ++i) {
     if (std::isnan(judged.view.z_of(site, i))) continue;
     if (site.of_points) {
@@ -74,44 +75,35 @@ auto groups_of(const Judged& judged, const Site& site, const Options& options) -
     if (face.kind == model::FaceKind::side && face.provenance && face.provenance->ring == 0)
       groups[{face.provenance->edge, face.provenance->part}].push_back(i);
   }
-  std::vector<Group> out;
-  for (auto& [key, group] : groups) {
-    if (std::ssize(group) < options.lines.min_samples) continue;
-    if (!site.of_points) {
-      const auto slope = plane_through(group, site, options);
-      const auto is_on_it = [&](std::size_t i) {
-        return std::abs(slope->at(site.places[i]) - site.z[i]) <= options.lines.robust;
-      };
-      if (!slope || static_cast<double>(std::ranges::count_if(group, is_on_it)) <
-                        on_one_plane * static_cast<double>(group.size()))
-        continue;
+  const auto plane_of = [&](std::uint32_t number, const Group& group) -> std::optional<Inclined> {
+    if (site.of_points) {
+      const auto& plane = site.planes[number];
+      return Inclined{{plane.middle.x, plane.middle.y, plane.middle.z - site.base}, plane.slope, 0};
     }
-    out.push_back(std::move(group));
-  }
-  return out;
-}
-
-auto slope_of(const Group& group, const Judged& judged, const Site& site, const Options& options)
-    -> std::optional<Inclined> {
-  std::optional<Inclined> slope;
-  if (site.of_points) {
-    const auto& plane = site.planes[site.plane_of[group.front()]];
-    slope = Inclined{{plane.middle.x, plane.middle.y, plane.middle.z - site.base}, plane.slope, 0};
-  } else {
-    slope = plane_through(group, site, options);
-  }
-  if (!slope) return slope;
-  const double steep = length(slope->rise);
-  if (steep < options.forms.min_slope || steep > options.forms.max_slope) return std::nullopt;
+    auto slope = plane_through(group, site, options);
+    if (!slope) return slope;
+    const auto on_it = std::ranges::count_if(
+        group, [&](std::size_t i) { return std::abs(slope->at(site.places[i]) - site.z[i]) <= options.lines.robust; });
+    if (static_cast<double>(on_it) < on_one_plane * static_cast<double>(group.size())) return std::nullopt;
+    return slope;
+  };
   const auto off = [&](double difference) {
     return site.of_points ? stray_loss(difference, options.samples.stray) : loss(difference, options.robust);
   };
-  for (const std::size_t i : group)
-    if (const double z = judged.view.z_of(site, i); !std::isnan(z))
+  std::vector<Inclined> out;
+  for (const auto& [key, group] : groups) {
+    if (std::ssize(group) < options.lines.min_samples) continue;
+    auto slope = plane_of(key.first, group);
+    if (!slope) continue;
+    const double steep = length(slope->rise);
+    if (steep < options.forms.min_slope || steep > options.forms.max_slope) continue;
+    for (const std::size_t i : group)
       slope->gain +=
           site.weight[i] * (off(judged.view.z_of(site, i) - site.z[i]) - off(slope->at(site.places[i]) - site.z[i]));
-  slope->gain *= site.sample_area;
-  return slope;
+    slope->gain *= site.sample_area;
+    out.push_back(*slope);
+  }
+  return out;
 }
 
 /// The roof's own planes where they go on beyond their faces: samples off the roof that lie on one. An obstacle in the
@@ -186,21 +178,18 @@ auto turned_roofs(const Judged& judged, const Judge& judge) -> std::vector<Plan>
   constexpr std::size_t most_slopes = 3;
   const Site& site = judge.site();
   const Options& options = judge.options();
-  std::vector<std::pair<Inclined, Point2>> slopes;  // and the middle of the samples
-  for (const Group& group : groups_of(judged, site, options))
-    if (const auto slope = slope_of(group, judged, site, options); slope && slope->gain > options.face_price)
-      slopes.emplace_back(*slope, xy(slope->middle));
-  for (const Inclined& slope : continued_slopes(judged, site, options))
-    if (slope.gain > options.face_price) slopes.emplace_back(slope, xy(slope.middle));
+  auto slopes = seen_slopes(judged, site, options);
+  std::ranges::move(continued_slopes(judged, site, options), std::back_inserter(slopes));
+  std::erase_if(slopes, [&](const Inclined& slope) { return !(slope.gain > options.face_price); });
   rank(
-      slopes, [](const auto& one) { return -one.first.gain; }, options.same_cost);
+      slopes, [](const Inclined& slope) { return -slope.gain; }, options.same_cost);
   if (slopes.size() > most_slopes) slopes.resize(most_slopes);
   std::vector<Plan> out;
-  for (const auto& [slope, middle] : slopes) {
+  for (const Inclined& slope : slopes) {
     std::optional<Plan> nearest;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t corner = 0; corner < judged.plan.outer.points.size(); ++corner) {
-      const double off = length(judged.plan.outer.points[corner] - middle);
+      const double off = length(judged.plan.outer.points[corner] - xy(slope.middle));
       if (off >= least - same_distance) continue;
       if (auto plan = with_slope(judged.plan, slope, corner, options)) nearest = std::move(*plan), least = off;
     }
