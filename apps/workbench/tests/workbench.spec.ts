@@ -10,6 +10,7 @@ import type * as api from "../src/api/types";
 import { cornerEdgesOf } from "../src/edit/plan";
 import { structuresOf } from "../src/edit/structures";
 import { bearingOf, turnedAt, wallBeside } from "../src/edit/turned_roof";
+import { contains, nearestOn } from "../src/edit/vector";
 import { type Line, type Server, data, expect, fingers, mansard, picture, png, saved, test } from "./harness";
 
 type Known = { window: { mansard: { state: typeof import("../src/state"); latency: number[]; drawn: number[] } } };
@@ -1935,10 +1936,27 @@ test("dormers are parts: moved, resized, given other roofs, deleted and added", 
   await test.step("placed roughly, it is fitted to the scan", async () => {
     const before = await planOf(id);
     const error = async () => Math.sqrt((await now()).mse!);
+    // A metre to where its roof has most room beside it.
+    const outline = (await planOf(host)).outer.points;
+    const room = ([dx, dy]: api.Point2) =>
+      Math.min(
+        ...before.outer.points.map(([x, y]): number => {
+          const p: api.Point2 = [x + dx, y + dy];
+          const edges = outline.map((a, i) => nearestOn(p, a, outline[(i + 1) % outline.length]!).distance);
+          return contains(outline, p) ? Math.min(...edges) : -1;
+        }),
+      );
+    const ways: [string, number][] = [
+      ["ArrowLeft", room([-1, 0])],
+      ["ArrowRight", room([1, 0])],
+      ["ArrowUp", room([0, 1])],
+      ["ArrowDown", room([0, -1])],
+    ];
+    const [widest] = ways.sort((a, b) => b[1] - a[1])[0]!;
     await changes(async () => {
       await page.getByRole("button", { name: /^dormer: move it/ }).focus();
       await page.keyboard.down("Shift");
-      await page.keyboard.press("ArrowLeft");
+      await page.keyboard.press(widest);
       await page.keyboard.up("Shift");
     });
     const rough = await error();
