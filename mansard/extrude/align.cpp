@@ -36,7 +36,7 @@ struct Wall {
   [[nodiscard]] auto along() const -> Point2 { return (1 / length) * (to - from); }
 };
 
-auto place(const ExactPoint& p, Point2 origin) -> Point2 { return Point2{p.x.get_d(), p.y.get_d()} + origin; }
+auto place(const ExactPoint& p, Point2 origin) -> Point2 { return p.approximate() + origin; }
 
 void add_walls(const Footprint& footprint, std::size_t plan, std::vector<Wall>& walls) {
   for (std::size_t r = 0; r < footprint.rings.size(); ++r) {
@@ -161,7 +161,7 @@ class Moved {
         ring.profile_of_edge.push_back(from.profile_of_edge[edge]);
         if (!from.overhang_of_edge.empty()) ring.overhang_of_edge.push_back(from.overhang_of_edge[edge]);
       }
-      detail::put_corner_edges(ring, from, out_, r, source_, options_.tolerance);
+      detail::put_corner_edges(ring, from, out_, r, source_, options_);
     }
     return made;
   }

@@ -15,12 +15,12 @@ auto ring_of(const detail::Footprint& footprint, std::size_t r, const model::Pla
   model::PlanRing ring;
   for (std::size_t i = 0; i < footprint.rings[r].size(); ++i) {
     const detail::ExactPoint& p = footprint.corners[r][i];
-    ring.points.push_back(geometry::Point2{p.x.get_d(), p.y.get_d()} + footprint.origin);
+    ring.points.push_back(p.approximate() + footprint.origin);
     const auto edge = footprint.rings[r][i].provenance.edge;
     ring.profile_of_edge.push_back(from.profile_of_edge[edge]);
     if (!from.overhang_of_edge.empty()) ring.overhang_of_edge.push_back(from.overhang_of_edge[edge]);
   }
-  detail::put_corner_edges(ring, from, footprint, r, source, options.tolerance);
+  detail::put_corner_edges(ring, from, footprint, r, source, options);
   return ring;
 }
 

@@ -74,7 +74,7 @@ auto tried(const detail::Footprint& footprint, const model::Plan& plan, const Op
 auto completed(const detail::Footprint& outline, const detail::Source& source, const Options& options, double moved = 0)
     -> std::optional<detail::Footprint> {
   if (source.corner_edges.empty()) return detail::continued(outline, moved);
-  auto with_corners = detail::with_corner_edges(outline, source, options.tolerance);
+  auto with_corners = detail::with_corner_edges(outline, source, options);
   auto out = detail::continued(with_corners, moved);
   return out ? std::move(out) : std::move(with_corners);
 }

@@ -24,8 +24,6 @@ auto inward_at(const Track& track, const Rational& height) -> Rational {
   return part.inward + part.slope * (height - part.height);
 }
 
-auto place(const ExactPoint& p) -> Point2 { return {p.x.get_d(), p.y.get_d()}; }
-
 /// A hole's edge with a roof on a wall.
 struct Place {
   std::size_t ring, edge;
@@ -69,7 +67,8 @@ class Continuing {
   [[nodiscard]] auto found(const Place& hole) const -> std::optional<Continues> {
     const CanonicalEdge& edge = given_.rings[hole.ring][hole.edge];
     const auto& corners = given_.corners[hole.ring];
-    const Point2 start = place(corners[hole.edge]), end = place(corners[(hole.edge + 1) % corners.size()]);
+    const Point2 start = corners[hole.edge].approximate(),
+                 end = corners[(hole.edge + 1) % corners.size()].approximate();
     const Rational& from = track_of(edge)[1].height;
     std::optional<Continues> best;
     std::tuple<double, double> least{HUGE_VAL, HUGE_VAL};
@@ -133,11 +132,11 @@ class Continuing {
       corners[at.edge] = corner_of(ring[before], ring[at.edge]);
       corners[next] = corner_of(ring[at.edge], ring[next]);
       const auto goes_on = [&](std::size_t k) {
-        const Point2 along = place(corners[(k + 1) % n]) - place(corners[k]);
+        const Point2 along = corners[(k + 1) % n].approximate() - corners[k].approximate();
         return dot(ring[k].direction.approximate(), along) >= shortest;
       };
-      const double by = std::max(length(place(corners[at.edge]) - place(std::get<1>(was))),
-                                 length(place(corners[next]) - place(std::get<2>(was))));
+      const double by = std::max(length(corners[at.edge].approximate() - std::get<1>(was).approximate()),
+                                 length(corners[next].approximate() - std::get<2>(was).approximate()));
       constexpr double slanting = 4;  // times the move, along neighbours that meet the edge at an angle
       if (goes_on(before) && goes_on(at.edge) && goes_on(next) && by <= slanting * near_) {
         out_->moved = std::max(out_->moved, given_.moved + by);

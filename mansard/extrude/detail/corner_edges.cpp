@@ -12,14 +12,12 @@ namespace {
 
 using geometry::Point2;
 
-auto in_doubles(const ExactPoint& p) -> Point2 { return {p.x.get_d(), p.y.get_d()}; }
-
 /// The direction of an edge of the ring, or one at right angles to that, where no point of the ring is moved by more
 /// than `most` m for it; else that of the table which is nearest.
 auto direction_like(const std::vector<CanonicalEdge>& ring, const std::vector<ExactPoint>& corners, Point2 along,
                     double most) -> Direction {
   geometry::Box2 box;
-  for (const auto& corner : corners) box.add(in_doubles(corner));
+  for (const auto& corner : corners) box.add(corner.approximate());
   const double off = most / length(box.most - box.least);
   std::optional<Direction> best;
   double least = off;
@@ -43,8 +41,8 @@ struct Located {
 };
 
 /// Those of a ring, the last corner first.
-auto located(const Footprint& footprint, std::size_t r, const Source& source, double within) -> std::vector<Located> {
-  constexpr double share_move = 1e-3;  // m; as edges share directions (Options::Lines::share_move)
+auto located(const Footprint& footprint, std::size_t r, const Source& source, const Options& options)
+    -> std::vector<Located> {
   const auto& ring = footprint.rings[r];
   const auto& corners = footprint.corners[r];
   const std::size_t n = ring.size();
@@ -52,9 +50,9 @@ auto located(const Footprint& footprint, std::size_t r, const Source& source, do
   for (const CornerEdge& edge : source.corner_edges) {
     if (edge.ring != r) continue;
     std::optional<std::size_t> nearest;
-    double least = within;
+    double least = options.tolerance;
     for (std::size_t i = 0; i < n; ++i) {
-      const double off = length(in_doubles(corners[i]) + footprint.origin - edge.corner);
+      const double off = length(corners[i].approximate() + footprint.origin - edge.corner);
       if (ring[i].joint || off > least) continue;
       least = off;
       nearest = i;
@@ -62,7 +60,7 @@ auto located(const Footprint& footprint, std::size_t r, const Source& source, do
     if (!nearest) continue;
     const Direction& before = ring[(*nearest + n - 1) % n].direction;
     const Direction& after = ring[*nearest].direction;
-    const Direction own = direction_like(ring, corners, edge.along, share_move);
+    const Direction own = direction_like(ring, corners, edge.along, options.lines.share_move);
     if (cross(before, own) <= 0 || cross(own, after) <= 0 ||
         !lies_between(before.approximate(), own.approximate(), after.approximate()))
       continue;
@@ -145,12 +143,12 @@ auto without_corner_edges(SourceRing& ring, std::size_t number) -> std::vector<C
   return out;
 }
 
-auto with_corner_edges(const Footprint& footprint, const Source& source, double within) -> Footprint {
+auto with_corner_edges(const Footprint& footprint, const Source& source, const Options& options) -> Footprint {
   Footprint out = footprint;
   for (std::size_t r = 0; r < out.rings.size(); ++r) {
     auto& ring = out.rings[r];
     auto& corners = out.corners[r];
-    for (const Located& one : located(footprint, r, source, within)) {
+    for (const Located& one : located(footprint, r, source, options)) {
       CanonicalEdge edge;
       edge.direction = one.direction;
       edge.offset = offset_beside(one.direction, corners[one.corner]);
@@ -159,7 +157,7 @@ auto with_corner_edges(const Footprint& footprint, const Source& source, double 
       const CanonicalEdge &before = ring[(one.corner + n - 1) % n], &after = ring[one.corner];
       const auto& given = source.profiles;
       const Track track = track_of(begun_alike(given[one.edge->profile], given[profile_of(before, source.rings[r])],
-                                               given[profile_of(after, source.rings[r])], within));
+                                               given[profile_of(after, source.rings[r])], options.tolerance));
       const auto known = std::ranges::find(out.tracks, track);
       edge.track = static_cast<std::uint32_t>(known - out.tracks.begin());
       if (known == out.tracks.end()) out.tracks.push_back(track);
@@ -174,9 +172,9 @@ auto with_corner_edges(const Footprint& footprint, const Source& source, double 
 }
 
 void put_corner_edges(model::PlanRing& made, const model::PlanRing& given, const Footprint& footprint, std::size_t r,
-                      const Source& source, double within) {
+                      const Source& source, const Options& options) {
   const auto& ring = footprint.rings[r];
-  for (const Located& one : located(footprint, r, source, within)) {
+  for (const Located& one : located(footprint, r, source, options)) {
     const auto ends =
         ends_at(made.points[one.corner], ring[(one.corner + ring.size() - 1) % ring.size()].direction.approximate(),
                 one.direction.approximate(), ring[one.corner].direction.approximate());

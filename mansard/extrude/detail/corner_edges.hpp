@@ -21,12 +21,14 @@ void insert(model::PlanRing& ring, std::size_t corner, std::pair<geometry::Point
 /// Takes the corner edges off a ring; its edges meet at the corners instead.
 [[nodiscard]] auto without_corner_edges(SourceRing& ring, std::size_t number) -> std::vector<CornerEdge>;
 
-/// The footprint with the corner edges of its source: each at the nearest corner, `within` m, a micrometre inside of
-/// it. Those without such a corner, or whose direction is not between those of its edges any more, are left out.
-[[nodiscard]] auto with_corner_edges(const Footprint& footprint, const Source& source, double within) -> Footprint;
+/// The footprint with the corner edges of its source: each at the nearest corner within `tolerance`, a micrometre
+/// inside of it. Those without such a corner, or whose direction is not between those of its edges any more, are left
+/// out.
+[[nodiscard]] auto with_corner_edges(const Footprint& footprint, const Source& source, const Options& options)
+    -> Footprint;
 
 /// A ring of a plan made from that of a footprint, corner for corner, with the corner edges that the source had there.
 void put_corner_edges(model::PlanRing& made, const model::PlanRing& given, const Footprint& footprint, std::size_t ring,
-                      const Source& source, double within);
+                      const Source& source, const Options& options);
 
 }  // namespace mansard::extrude::detail

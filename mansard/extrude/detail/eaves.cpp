@@ -84,10 +84,10 @@ auto eaves_of(const Footprint& footprint, const Rational& cap, const Options& op
       } else {
         outline.push_back(corner_of(before, edge));
       }
-      rounded.push_back({outline.back().x.get_d(), outline.back().y.get_d()});
+      rounded.push_back(outline.back().approximate());
       // The eaves of a spike would meet far outside.
       const ExactPoint& foot = footprint.corners[corners.size() - 1][i];
-      const geometry::Point2 out = rounded.back() - geometry::Point2{foot.x.get_d(), foot.y.get_d()};
+      const geometry::Point2 out = rounded.back() - foot.approximate();
       if (length(out) > options.eaves.mitre * options.overhang)
         return refuse("eaves would meet too far out at a sharp corner");
     }

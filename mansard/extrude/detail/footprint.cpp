@@ -18,7 +18,7 @@ auto would_be_straightened(const Footprint& footprint, const Options& options) -
     geometry::Ring ring;
     for (std::size_t i = 0; i < footprint.rings[r].size(); ++i) {
       const ExactPoint& p = footprint.corners[r][i];
-      if (!footprint.rings[r][i].joint) ring.push_back({p.x.get_d(), p.y.get_d()});
+      if (!footprint.rings[r][i].joint) ring.push_back(p.approximate());
     }
     if (straightened(on_fine_grid(ring, {}), options.merge_angle, options.tolerance / 2).size() < ring.size())
       return true;
@@ -35,7 +35,7 @@ auto source_of(const Footprint& footprint, const Source& from) -> Source {
     ring.ring = from.rings[r].ring;
     for (std::size_t i = 0; i < footprint.rings[r].size(); ++i) {
       const ExactPoint& p = footprint.corners[r][i];
-      ring.points.push_back(Point2{p.x.get_d(), p.y.get_d()} + footprint.origin);
+      ring.points.push_back(p.approximate() + footprint.origin);
       const std::uint32_t edge = footprint.rings[r][i].provenance.edge;
       ring.edge.push_back(edge);
       const auto& names = from.rings[r].edge;

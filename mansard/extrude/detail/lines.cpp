@@ -123,8 +123,7 @@ class Lines {
              (r == 0 ? "" : " of hole " + std::to_string(source_.rings[r].ring));
     };
     const ExactPoint& p = out_.corners[c.ring][c.edge];
-    return name(c.ring, c.edge) + " near " + place({p.x.get_d(), p.y.get_d()}) + " and " +
-           name(c.other_ring, c.other_edge) +
+    return name(c.ring, c.edge) + " near " + place(p.approximate()) + " and " + name(c.other_ring, c.other_edge) +
            " are too close to each other to stay apart on exact lines; widen the gap or the neck between them to a "
            "millimetre, or close it";
   }

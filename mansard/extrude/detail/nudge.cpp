@@ -29,8 +29,6 @@ constexpr std::array<Nudge, most_nudges> nudges{{
     {5, true, 37, 193},
 }};
 
-auto rounded(const ExactPoint& p) -> Point2 { return {p.x.get_d(), p.y.get_d()}; }
-
 /// Every edge's line moved inward by its rank's quanta; collinear neighbours stay on one line. How far the outline
 /// moved at most, metres; nothing when an edge would turn round.
 auto moved_inward(Footprint& footprint, int step, int modulus) -> std::optional<double> {
@@ -68,11 +66,12 @@ auto moved_inward(Footprint& footprint, int step, int modulus) -> std::optional<
       corners[i] = joint ? *joint : corner_of(ring[(i + n - 1) % n], ring[i]);
     }
     for (std::size_t i = 0; i < n; ++i) {
-      const Point2 a = rounded(corners[i]), b = rounded(corners[(i + 1) % n]);
+      const Point2 a = corners[i].approximate(), b = corners[(i + 1) % n].approximate();
       if (dot(ring[i].direction.approximate(), b - a) < shortest) return std::nullopt;
       // Between the feet of the old corners the outline moved with its line; past them, towards its neighbour's.
-      const Point2 before = rounded(old[(i + n - 1) % n]), here = rounded(old[i]), after = rounded(old[(i + 1) % n]);
-      const Point2 was = rounded(corners[(i + n - 1) % n]);
+      const Point2 before = old[(i + n - 1) % n].approximate(), here = old[i].approximate(),
+                   after = old[(i + 1) % n].approximate();
+      const Point2 was = corners[(i + n - 1) % n].approximate();
       most = std::max(most, std::min(geometry::distance({before, here}, a), geometry::distance({here, after}, a)));
       most = std::max(most, std::min(geometry::distance({was, a}, here), geometry::distance({a, b}, here)));
     }

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "mansard/geometry/points.hpp"
+
 namespace mansard::extrude::detail {
 
 /// u: a double nearest to a number is off by no more than this times the number.
@@ -66,6 +68,8 @@ inline constexpr long quanta_per_metre = 65536;
 /// An exact point in the plane.
 struct ExactPoint {
   Rational x, y;
+  /// In the nearest doubles towards zero, as GMP converts.
+  [[nodiscard]] auto approximate() const -> geometry::Point2 { return {x.get_d(), y.get_d()}; }
   friend auto operator==(const ExactPoint&, const ExactPoint&) -> bool = default;
 };
 

@@ -52,7 +52,7 @@ auto clash_in(const std::vector<std::vector<ExactPoint>>& corners) -> std::optio
   for (const auto& ring : corners) {
     rounded.emplace_back();
     for (const ExactPoint& p : ring) {
-      rounded.back().push_back({p.x.get_d(), p.y.get_d()});
+      rounded.back().push_back(p.approximate());
       greatest = std::max({greatest, std::abs(rounded.back().back().x), std::abs(rounded.back().back().y)});
     }
   }

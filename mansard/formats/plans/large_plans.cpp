@@ -19,8 +19,6 @@ namespace {
 constexpr std::uintmax_t large_from = std::uintmax_t{16} << 20U;
 /// What stands before the buildings is never longer in a file that mansard wrote.
 constexpr std::size_t longest_head = std::size_t{4} << 20U;
-/// m; as in bring_near: plans whose middle is farther from their origin get one near it, for which all must be read.
-constexpr double near_origin = 5e4;
 
 /// The characters of a file, in order.
 class Characters {

@@ -16,6 +16,9 @@ namespace mansard::formats::detail {
 inline constexpr double farthest = 1e8, farthest_origin = 1e9, highest_cap = 1e5, longest_profile = 1e6,
                         farthest_overhang = 3;
 
+/// m; as in bring_near: plans whose middle is farther from their origin get one near it, for which all must be read.
+inline constexpr double near_origin = 5e4;
+
 /// "type", "version", "made_by" and "frame"; `others` are members that the file may have beside them.
 [[nodiscard]] auto read_header(const Item& item, std::initializer_list<const char*> others) -> Header;
 /// Parts that are at fault are left out and listed in `refused`, if there is one; else the first ends the reading.

@@ -18,16 +18,13 @@
 namespace mansard::formats {
 namespace {
 
-/// m; as for large files that are read in order: plans farther from their origin get one near it, for which all must
-/// be read.
-constexpr double near_origin = 5e4;
-
 constexpr std::size_t piece = std::size_t{1} << 20U;  // bytes that are read at once
 
 auto is_near(const model::Building& building) -> bool {
   return std::ranges::all_of(building.parts, [](const auto& part) {
-    return std::ranges::all_of(part.plan.outer.points,
-                               [](const auto p) { return std::max(std::abs(p.x), std::abs(p.y)) <= near_origin; });
+    return std::ranges::all_of(part.plan.outer.points, [](const auto p) {
+      return std::max(std::abs(p.x), std::abs(p.y)) <= detail::near_origin;
+    });
   });
 }
 
