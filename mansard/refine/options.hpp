@@ -200,9 +200,6 @@ struct Options {
   struct Joins {
     /// m; straightened neighbours differ by up to 0.01 m: five times that
     static constexpr double touching = 0.05;
-    /// Two parts are searched as one where a quick roof costs less than this multiple of both. Searching edge by edge
-    /// seldom takes more off; no record of the measurement.
-    double quick_excess = 1.15;
     static constexpr std::int64_t shared_faces = 8;  ///< a bound, so that joins which cannot pay are not tried
     double recut_reach = 1.5;                        ///< m
     static constexpr std::int64_t max_pieces = 64;   ///< a limit on the search

@@ -224,19 +224,10 @@ auto error_of(double before, double after, const Judge& judge) -> std::string {
   return ": squared error " + base::to_text(before / area, 2) + " → " + base::to_text(after / area, 2) + " m²";
 }
 
-}  // namespace
-
-auto best_roof(const Draft& draft, const Judge& judge, Search search, double worth, std::vector<std::string>& changed)
-    -> base::Result<Judged> {
-  auto start = best_cap(draft, judge);
-  if (start && judge.site().cells.empty()) return below_ceilings(std::move(*start), judge);
-  if (!start || judge.options().effort == Effort::caps || judge.site().cells.empty()) return start;
-
+/// From a roof, which is the draft's, to the cheapest that is found.
+auto searched(Judged best, const Draft& draft, const Judge& judge, Search search, double worth) -> Judged {
   const auto& options = judge.options().search;
   const double faces_apart = judge.options().face_price;  // less misfit than one face costs: nothing can pay
-  Judged best = std::move(*start);
-  const auto before = best.plan;
-  const double misfit = best.misfit;
   if (judge.wrong(best) < faces_apart) return best;
 
   if (search == Search::settled) return settle(std::move(best), judge);
@@ -268,8 +259,22 @@ auto best_roof(const Draft& draft, const Judge& judge, Search search, double wor
     best = supported(std::move(best), judge);
     if (best.cost > options.round_gain * cost) break;
   }
-  if (judge.wrong(best) >= faces_apart) best = turn(std::move(best), judge);
-  if (best.plan != before) changed.push_back(change_of(before, best.plan) + error_of(misfit, best.misfit, judge));
+  return judge.wrong(best) >= faces_apart ? turn(std::move(best), judge) : best;
+}
+
+}  // namespace
+
+auto best_roof(const Draft& draft, const Judge& judge, Search search, double worth, const Judged* found,
+               std::vector<std::string>& changed) -> base::Result<Judged> {
+  auto start = best_cap(draft, judge);
+  if (start && judge.site().cells.empty()) return below_ceilings(std::move(*start), judge);
+  if (!start || judge.options().effort == Effort::caps || judge.site().cells.empty()) return start;
+  const auto before = start->plan;
+  const double misfit = start->misfit;
+  Judged best = searched(std::move(*start), draft, judge, search, worth);
+  if (found && cheaper(found->cost, best.cost, judge.options().same_cost)) best = *found;
+  if (search == Search::thorough && best.plan != before)
+    changed.push_back(change_of(before, best.plan) + error_of(misfit, best.misfit, judge));
   return best;
 }
 

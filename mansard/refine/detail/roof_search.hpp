@@ -16,9 +16,9 @@ enum class Search : std::uint8_t {
 };
 
 /// From the draft with its caps over the common forms to the cheapest that was found. `changed`: words about what was
-/// done. The search ends early where it is clear that the roof will cost more than it is `worth`. Gives up where not
-/// even the draft can be raised.
-[[nodiscard]] auto best_roof(const Draft& draft, const Judge& judge, Search search, double worth,
+/// done. The search ends early where it is clear that the roof will cost more than it is `worth`. `found`: by a quicker
+/// search, so that none is dearer; may be null. Gives up where not even the draft can be raised.
+[[nodiscard]] auto best_roof(const Draft& draft, const Judge& judge, Search search, double worth, const Judged* found,
                              std::vector<std::string>& changed) -> base::Result<Judged>;
 
 }  // namespace mansard::refine::detail

@@ -23,6 +23,10 @@ namespace {
 /// b9 takes 47 CPU s with these and 100 without, with the same error (27 November 2026).
 constexpr double worth_a_cut = 0.02, worth_a_seam = 0.05;
 
+/// Where two meet in the wrong place, one roof over both costs more than two by what a cut has to explain, and by what
+/// a quick search leaves. Of those cuts that explain less than half, one in twenty pays (decision 154).
+constexpr double least_explained = 0.5;
+
 /// What a crown hides may be joined with what is seen beside it.
 auto may_be_known(const Piece& piece) -> bool { return !piece.site.cells.empty() || !piece.site.ceilings.empty(); }
 
@@ -78,10 +82,10 @@ auto Work::both_of(const Piece& a, const Piece& b, const geometry::Polygon& both
 
 /// `worth`: dearer roofs are of no interest.
 auto Work::roofed(std::size_t draft_index, Site site, Draft draft, Search search, double worth,
-                  std::shared_ptr<KnownRoofs> known) const -> base::Result<Piece> {
+                  std::shared_ptr<KnownRoofs> known, const Judged* found) const -> base::Result<Piece> {
   std::vector<std::string> changes;
   if (!known) known = std::make_shared<KnownRoofs>();
-  auto roof = best_roof(draft, judge_of(site, known.get()), search, worth, changes);
+  auto roof = best_roof(draft, judge_of(site, known.get()), search, worth, found, changes);
   if (!roof) return roof.error();
   Piece piece{draft_index, std::move(site), std::move(draft), std::move(*roof), std::nullopt, std::move(changes)};
   if (search != Search::thorough) {
@@ -137,7 +141,7 @@ auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> 
 
 /// Of the proposed cuts the one whose pieces cost least, if that is less than they are worth.
 auto Work::cut_within(const Piece& piece, double least_gain, double worth) const -> std::vector<Piece> {
-  return cheapest(piece, cuts_of(piece, least_gain), worth);
+  return cheapest(piece, cuts_of(piece, std::max(least_gain, least_explained * (piece.roof.cost - worth))), worth);
 }
 
 auto Work::cuts_of(const Piece& piece, double least_gain) const -> std::vector<Proposal> {
@@ -233,9 +237,9 @@ auto Work::united(const Piece& a, const Piece& b) const -> std::optional<Union> 
 /// The same where that is cheaper.
 auto Work::as_one(const Piece& a, const Piece& b, const Union& both) const -> std::optional<Piece> {
   const double worth = cost_of(a, b);
-  if (both.roof.cost >= options_.joins.quick_excess * worth) return std::nullopt;
+  if (!cheaper(both.roof.cost, worth, options_.same_cost)) return std::nullopt;
   auto made = roofed(std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, Search::thorough,
-                     worth, both.known);
+                     worth, both.known, &both.roof);
   if (!made || !cheaper(made->roof.cost, worth, options_.same_cost)) return std::nullopt;
   made->changes.insert(made->changes.begin(), "parts of " + square_metres(a) + " and " + square_metres(b) +
                                                   " joined under one roof, at a cost of " +
@@ -457,8 +461,9 @@ auto Work::searched(const Piece& piece, const Proposal& proposal, std::vector<Pi
   const auto before_and_after =
       ", at a cost of at most " + base::to_text(cost, 1) + " instead of " + base::to_text(piece.roof.cost, 1);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Judged found = std::move(pieces[i].roof);
     auto better = roofed(piece.draft_index, std::move(pieces[i].site), std::move(pieces[i].draft), Search::thorough,
-                         std::numeric_limits<double>::infinity(), std::move(pieces[i].known));
+                         std::numeric_limits<double>::infinity(), std::move(pieces[i].known), &found);
     if (!better) return {};
     pieces[i] = std::move(*better);
     auto& changes = pieces[i].changes;

@@ -57,11 +57,12 @@ class Work {
 
   [[nodiscard]] auto look(const geometry::Polygon& polygon, double base) const -> Site;
 
-  /// `worth`: dearer roofs are of no interest. `known`: of an earlier search over the same site. Gives up where the
-  /// roof cannot be sketched, or, thoroughly searched, not be raised in full.
+  /// `worth`: dearer roofs are of no interest. `known`, `found`: of an earlier search over the same site, all roofs and
+  /// the best. Gives up where the roof cannot be sketched, or, thoroughly searched, not be raised in full.
   [[nodiscard]] auto roofed(std::size_t draft_index, Site site, Draft draft, Search search = Search::thorough,
                             double worth = std::numeric_limits<double>::infinity(),
-                            std::shared_ptr<KnownRoofs> known = nullptr) const -> base::Result<Piece>;
+                            std::shared_ptr<KnownRoofs> known = nullptr, const Judged* found = nullptr) const
+      -> base::Result<Piece>;
 
   /// Whether their grounds may meet, and there is anything to see over them.
   [[nodiscard]] auto touch(const Piece& a, const Piece& b) const -> bool;
