@@ -21,9 +21,13 @@ struct Frame {
 /// place have the same digits. One micrometre is a thousandth of what any scan or survey resolves.
 inline constexpr double coordinate_unit = 0x1p-20;
 
-/// To the nearest whole multiple of `unit`, a power of two; halves up, so that a shift by whole units does not matter.
+/// To the nearest or second nearest whole multiple of `unit`, a power of two: what is more than 0.382 units above one
+/// goes up. A shift by whole units does not matter. Halves, quarters and tenths of a unit are frequent in files of
+/// floats and decimals; with the limit at the golden section none of them is near to it, so that the last digit of a
+/// file seldom decides.
 [[nodiscard]] inline auto rounded(double value, double unit = coordinate_unit) -> double {
-  return std::floor(value / unit + 0.5) * unit;
+  constexpr double golden = 0.6180339887498949;
+  return std::floor(value / unit + golden) * unit;
 }
 
 struct InputFile {
