@@ -150,27 +150,7 @@ void add_wings(OptionList& list, Options::Wings& o) {
       .advanced(by_hand);
 }
 
-void add_roughness(OptionList& list, Options::Cuts& o) {
-  list.number("cuts_crisp_rms", o.crisp_rms, "m", height,
-              "A structure is a roof where a simple surface leaves no greater root mean square than this.")
-      .advanced("the crown of a tree 3 m high has more; not measured")
-      .number("cuts_smooth_rms", o.smooth_rms, "m", height,
-              "A structure that fills its box is a roof where a simple surface leaves no greater root mean square.")
-      .advanced("a roof with its clutter; not measured")
-      .number("cuts_hipped_min_area", o.hipped_min_area, "m²", area,
-              "A structure of at least this area is also compared with a roof of four hips.")
-      .advanced("a smaller crown passes for one; not measured")
-      .number("cuts_fair_area", o.fair_area, "m²", area,
-              "A structure of at least this area may have hips and smaller structures on it.")
-      .advanced(by_hand)
-      .number("cuts_fair_rms", o.fair_rms, "m", height,
-              "A structure of at least refine.cuts_fair_area is a roof where a simple surface leaves no greater root "
-              "mean square than this.")
-      .advanced(by_hand);
-}
-
 void add_cuts(OptionList& list, Options::Cuts& o) {
-  add_roughness(list, o);
   list.number("cuts_new_direction", o.new_direction, "rad", angle,
               "The walls of a structure are a direction of their own where they differ from all others by more than "
               "this.")

@@ -219,16 +219,6 @@ struct Options {
     double min_width = 0.8;                       ///< m; no option: decided_by
     double min_area = 4;                          ///< m²; no option: decided_by
     static constexpr std::int64_t max_count = 6;  ///< a limit on the search
-    double crisp_rms = 0.15;                      ///< m
-    double smooth_rms = 0.35;                     ///< m
-    /// A structure fills its box where its mean height is at least this share of its maximum height. Chosen by hand;
-    /// not measured.
-    double fullness = 0.73;
-    /// The maximum height of a structure is exceeded by one sample in this many. Chosen by hand; not measured.
-    std::int64_t fullness_part = 20;
-    double hipped_min_area = 16;  ///< m²
-    double fair_area = 30;        ///< m²
-    double fair_rms = 0.45;       ///< m
     /// A line across a part is proposed where it explains at least this share of the part's error. Chosen by hand; not
     /// measured.
     double line_gain = 0.15;

@@ -63,6 +63,19 @@ TEST_F(Steps, are_not_made_of_a_slope) {
   EXPECT_EQ(detail::stepped(slope, *judge_, slope.cost + options_.face_price).plan, slope.plan);
 }
 
+// The strip is higher than the pitch behind the steep one begins: the two meet, and there is no wall between them.
+TEST_F(Steps, without_a_wall_repeat_no_point) {
+  const auto pitches = plan(house(), {{{0, 0}, {0, 5.4}, {1, 7}, {3, 8}}, wall(9), wall(9), wall(9)}, 9);
+  const auto slope =
+      judged(pitches, plan(house(), {{{0, 0}, {0, 7.5}, {1.4, 7.5}, {1.4, 9}}, wall(9), wall(9), wall(9)}, 9));
+  const auto faces = detail::steep_faces(slope);
+  ASSERT_EQ(faces.size(), 1U);
+  const auto plans = detail::with_step(slope, faces[0], *judge_);
+  ASSERT_FALSE(plans.empty());
+  for (const auto& one : plans)
+    for (const auto& profile : one.profiles) EXPECT_EQ(std::ranges::adjacent_find(profile), profile.end());
+}
+
 TEST_F(Steps, are_no_face_more_than_the_slope) {
   const auto slope = judged(sloped(6.5, 1.25), stepped(1.4)), step = judged(stepped(1.4), stepped(1.4));
   EXPECT_EQ(step.sketch.faces.size(), slope.sketch.faces.size() + 1);

@@ -38,26 +38,6 @@ auto mean_width(const Polygon& polygon, const carve::Frame& frame) -> double {
   return geometry::area(polygon) / std::max({box.most.x - box.least.x, box.most.y - box.least.y, 1e-9});
 }
 
-/// Whether what stands out is one roof rather than a tree.
-auto coherent(const carve::Raster& raster, const Cut& cut, const Options& options) -> bool {
-  if (options.samples.point_area > 0) return true;  // the points will say (work.cpp): those of a tree lie on no roof
-  const auto& o = options.cuts;
-  const carve::Errors& e = cut.errors;
-  const bool inside = std::abs(e.inside_mean) >= std::abs(e.outside_mean);
-  Mask of_it = cut.mask;
-  if (!inside)
-    for (std::size_t k = 0; k < of_it.size(); ++k)
-      of_it[k] = raster.state[k] != carve::Cell::outside && !cut.mask[k] ? 1 : 0;
-  const Mask core = carve::shrunk(raster, of_it, options.samples.melt);
-  const double rms = carve::unevenness_of(raster, core, cut.frame, options.surfaces);
-  const double area = (inside ? e.inside : e.outside).count * raster.cell_area();
-  const bool fair = area >= o.fair_area;
-  if (rms <= (fair ? o.fair_rms : o.smooth_rms) &&
-      (rms <= o.crisp_rms || fair || carve::fullness_of(raster, of_it, o.fullness_part) >= o.fullness))
-    return true;
-  return inside && area >= o.hipped_min_area && carve::hipped_error(raster, core, cut.polygon) <= o.crisp_rms;
-}
-
 /// The cuts of one part as they are found, held against the cells as measured.
 class Cuts {
  public:
@@ -75,7 +55,6 @@ class Cuts {
     cut.gain = gain * raster_.cell_area();
     if (!(cut.gain >= least_gain_)) return;
     if (shape == 0 && gain < o.line_gain * cut.errors.whole.best) return;
-    if (shape > 0 && !coherent(raster_, cut, options_)) return;
     cut.ranked = cut.gain * (1 - o.shape_price * shape);
     found_.push_back(std::move(cut));
   }

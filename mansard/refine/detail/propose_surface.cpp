@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "mansard/base/statistics.hpp"
-
 namespace mansard::refine::detail::carve {
 namespace {
 
@@ -141,12 +139,10 @@ auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, cons
   const auto [inside, outside] = moments_of(raster, mask);
   Moments all = inside;
   all += outside;
-  const auto mean = [](const Moments& m) { return m.count > 0 ? m.r / m.count : 0; };
   Errors out{{inside.count, inside.rr, plain_error(inside)},
              {outside.count, outside.rr, plain_error(outside)},
              {all.count, all.rr, plain_error(all)},
-             mean(inside),
-             mean(outside)};
+             inside.count > 0 ? inside.r / inside.count : 0};
   const auto improve = [](Error& error, double by) { error.best = std::min(error.best, by); };
   const double least = options.ridge_min_area / raster.cell_area();
   for (const geometry::Point2 along : {ridges.axis, geometry::left_of(ridges.axis)}) {
@@ -158,46 +154,6 @@ auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, cons
     improve(out.whole, ridge_over(both, bins.first, options));
   }
   return out;
-}
-
-auto unevenness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges,
-                   const Options::Surfaces& options) -> double {
-  const Moments inside = moments_of(raster, mask).inside;
-  if (inside.count < 1) return infinite;
-  double error = plain_error(inside);
-  if (inside.count > options.ridge_min_area / raster.cell_area())
-    for (const geometry::Point2 along : {ridges.axis, geometry::left_of(ridges.axis)}) {
-      const Bins bins = bins_of(raster, mask, along, options.bin);
-      error = std::min(error, ridge_over(bins.inside, bins.first, options));
-    }
-  return std::sqrt(error / inside.count);
-}
-
-auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, std::int64_t part) -> double {
-  std::vector<float> residuals;
-  double mean = 0;
-  for (std::size_t k = 0; k < mask.size(); ++k)
-    if (mask[k] && raster.state[k] == Cell::seen) residuals.push_back(raster.residual[k]);
-  if (residuals.empty()) return 0;
-  for (const float r : residuals) mean += r / static_cast<double>(residuals.size());
-  if (mean < 0)
-    for (float& r : residuals) r = -r;
-  const auto rank = static_cast<std::size_t>(std::ssize(residuals) * (part - 1) / part);
-  const float high = base::ranked(std::move(residuals), rank);
-  return high > 0 ? std::abs(mean) / high : 1;
-}
-
-auto hipped_error(const Raster& raster, const std::vector<std::uint8_t>& mask, const geometry::Polygon& polygon)
-    -> double {
-  geometry::LineSums m;
-  for (int j = 0; j < raster.rows; ++j)
-    for (int i = 0; i < raster.columns; ++i) {
-      const std::size_t k = raster.at(i, j);
-      if (!mask[k] || raster.state[k] != Cell::seen) continue;
-      m.add(geometry::boundary_distance(polygon, raster.frame.back({raster.x(i), raster.y(j)})), raster.z[k]);
-    }
-  if (m.weight < 1 || m.spread() <= 0 || m.joint() < 0) return infinite;
-  return std::sqrt(m.residual() / m.weight);
 }
 
 }  // namespace mansard::refine::detail::carve

@@ -45,26 +45,12 @@ struct Error {
 /// Two sets of cells, each by its best simple surface, and both by one.
 struct Errors {
   Error inside, outside, whole;
-  double inside_mean = 0, outside_mean = 0;  ///< mean residual, m
+  double inside_mean = 0;  ///< mean residual, m
 };
 [[nodiscard]] auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges,
                              const Options::Surfaces& options) -> Errors;
 [[nodiscard]] inline auto gain_of(const Errors& errors, const Options::Surfaces& options) -> double {
   return gain_of(errors.inside, errors.outside, errors.whole, options);
 }
-
-/// How uneven a set of cells is: the root mean square, m, that the best level, plane, lifted model or (on large sets)
-/// ridge leaves.
-[[nodiscard]] auto unevenness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges,
-                                 const Options::Surfaces& options) -> double;
-
-/// The mean residual over the one that one cell in `part` exceeds: 1 for a box, less for a dome.
-[[nodiscard]] auto fullness_of(const Raster& raster, const std::vector<std::uint8_t>& mask, std::int64_t part)
-    -> double;
-
-/// Root mean square, m, that a roof hipped on all sides of the polygon, of any pitch, leaves of the cells; infinite
-/// where it would be a funnel. The raster is one along the axes.
-[[nodiscard]] auto hipped_error(const Raster& raster, const std::vector<std::uint8_t>& mask,
-                                const geometry::Polygon& polygon) -> double;
 
 }  // namespace mansard::refine::detail::carve

@@ -40,17 +40,18 @@ auto is_sound(const base::Result<extrude::Raised>& raised) -> bool {
          std::ranges::none_of(raised->warnings, [](const auto& warning) { return warning.code == "extrude-nudged"; });
 }
 
-/// Whether most points over a piece lie on its roof: of crowns, and of gaps through which some see the ground, few do.
-/// Clearly more than half, within twice what a fit of lines takes for noise; chosen by hand (decision 137).
+/// Whether most samples over a piece lie on its roof: of crowns, and of gaps through which some points show the ground,
+/// few do. Clearly more than half, within the smallest detail or twice what a fit of lines takes for noise; chosen by
+/// hand (decisions 137 and 155).
 auto is_of_roof(const Piece& piece, const Options& options) -> bool {
   constexpr double most = 0.6, noises = 2;
+  const double near = std::max(options.detail, noises * options.lines.robust);
   const Site& site = piece.site;
-  if (!site.of_points) return true;
   std::size_t on = 0, clear = 0;
   for (std::size_t i = 0; i < site.z.size(); ++i) {
     if (site.weight[i] < 1) continue;
     ++clear;
-    if (std::abs(piece.roof.view.z_of(site, i) - site.z[i]) <= noises * options.lines.robust) ++on;
+    if (std::abs(piece.roof.view.z_of(site, i) - site.z[i]) <= near) ++on;
   }
   return static_cast<double>(on) >= most * static_cast<double>(clear);
 }
