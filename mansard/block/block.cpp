@@ -48,12 +48,7 @@ auto before(const Polygons& a, const Polygons& b) -> bool {
 }
 
 auto rounded(Point2 p) -> Point2 { return {model::rounded(p.x), model::rounded(p.y)}; }
-/// m: unit of what was scanned, a third of the last digit of models. The coarser, the fewer coordinates change when a
-/// scan is moved by next to nothing: by a nanometre one in 15,000 (decision 156).
-constexpr double scan_unit = 0x1p-15;
-auto rounded(Point3 p) -> Point3 {
-  return {model::rounded(p.x, scan_unit), model::rounded(p.y, scan_unit), model::rounded(p.z, scan_unit)};
-}
+auto rounded(Point3 p) -> Point3 { return {model::rounded(p.x), model::rounded(p.y), model::rounded(p.z)}; }
 
 void round_all(Polygons& polygons) {
   for (auto& polygon : polygons) geometry::change_corners(polygon, [](Point2 p) { return rounded(p); });

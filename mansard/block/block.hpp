@@ -98,9 +98,8 @@ struct Options {
 /// block · 2 blocks and members are ordered by feature number, whatever the thread count · 3 every triangle of the
 /// scene within the padding of a block's outline is in that block's mesh, and none entirely farther away · 4 a block
 /// depends on its members, on the footprints and the mesh near it and on nothing else: not on their order in the files,
-/// nor on where the scene's frame begins, nor on what else is in the scene. Its coordinates are rounded, those
-/// of footprints to model::coordinate_unit, those of the scan to 2⁻¹⁵ m. Cost: O((n + m) log m) for n triangles, m
-/// footprints.
+/// nor on where the scene's frame begins, nor on what else is in the scene. Its coordinates are rounded to
+/// model::coordinate_unit. Cost: O((n + m) log m) for n triangles, m footprints.
 [[nodiscard]] auto partition(const model::Scene& scene, const Options& options, const base::Run& run = {})
     -> std::vector<Block>;
 
