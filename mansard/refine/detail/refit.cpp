@@ -152,10 +152,7 @@ auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks
 auto chained(const Profile& profile, std::span<const std::optional<RoofLine>> lines, const Options& options)
     -> std::optional<Profile> {
   Profile out{{0, 0}};
-  const auto add = [&out](double inward, double height) {
-    const model::ProfilePoint next{inward, height};
-    if (!(next == out.back())) out.push_back(next);
-  };
+  const auto add = [&out](double inward, double height) { add_point(out, inward, height); };
   double last_inward = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const auto& own = lines[i];

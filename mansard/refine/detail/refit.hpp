@@ -26,6 +26,12 @@ enum class Used : std::uint8_t {
 /// The profile's part from point i to i + 1 as a line; none for walls.
 [[nodiscard]] auto line_of(const model::Profile& profile, std::size_t i) -> std::optional<RoofLine>;
 
+/// m; at the end of a profile that has points. A point that is there already is not repeated.
+inline void add_point(model::Profile& profile, double inward, double height) {
+  const model::ProfilePoint next{inward, height};
+  if (!(next == profile.back())) profile.push_back(next);
+}
+
 /// The profile with other lines for its parts, as many as it has, none for walls. A profile is a chain: where its lines
 /// were joined they are joined again, walls between them stay where they stand. None where it would fall or lean out.
 [[nodiscard]] auto chained(const model::Profile& profile, std::span<const std::optional<RoofLine>> lines,

@@ -77,19 +77,16 @@ auto with_step_in(const Profile& profile, std::size_t from, std::size_t to, cons
     -> std::optional<Profile> {
   const auto &foot = profile[from], &head = profile[to + 1];
   Profile out(profile.begin(), profile.begin() + static_cast<std::ptrdiff_t>(from));
-  const auto add = [&out](double inward, double height) {
-    if (const model::ProfilePoint next{inward, height}; next != out.back()) out.push_back(next);
-  };
   // Behind a wall the level is what was seen; behind a roof it is where that ends.
   const bool behind_wall = out.back().inward == foot.inward;
   const double level = behind_wall ? std::max(step.level, out.back().height) : foot.height;
-  add(foot.inward, level);
-  add(step.depth, level);
+  add_point(out, foot.inward, level);
+  add_point(out, step.depth, level);
   if (to + 2 < profile.size()) {
     const auto& next = profile[to + 2];
     if (step.depth >= next.inward) return std::nullopt;
     const double rise = next.inward > head.inward ? (next.height - head.height) / (next.inward - head.inward) : 0;
-    add(step.depth, std::max(level, head.height - rise * (head.inward - step.depth)));
+    add_point(out, step.depth, std::max(level, head.height - rise * (head.inward - step.depth)));
     out.insert(out.end(), profile.begin() + static_cast<std::ptrdiff_t>(to) + 2, profile.end());
   }
   return out;
