@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "mansard/accuracy/detail/noise.hpp"
 #include "mansard/accuracy/detail/transects.hpp"
-#include "mansard/base/run.hpp"
 #include "mansard/base/statistics.hpp"
 
 namespace mansard::accuracy {
@@ -15,11 +15,8 @@ using geometry::Point2;
 using geometry::Point3;
 
 constexpr std::size_t most_places = 700;
-constexpr double most_samples = 40'000;
-constexpr double finest = 0.5;                               // m between places
-constexpr double coarse = 0.6;                               // m: a mesh whose vertices are farther apart is sampled
-constexpr double triangles = 1.5, largest_of_several = 2.5;  // spacings, and m
-constexpr double faces_up = 0.5;                             // cosine of 60°: steeper is no roof
+constexpr double finest = 0.5;  // m between places
+constexpr double coarse = 0.6;  // m: of a mesh whose vertices are farther apart, few discs hold one roof alone
 
 /// Three digits: what a logarithm's last bit says is not that of another processor.
 auto rounded(double value) -> double {
@@ -37,7 +34,7 @@ auto roof_vertices(const geometry::Mesh& mesh) -> std::vector<Point3> {
   }
   std::vector<Point3> out;
   for (std::size_t v = 0; v < normals.size(); ++v)
-    if (std::abs(normals[v].z) > faces_up * length(normals[v])) out.push_back(mesh.vertices[v]);
+    if (std::abs(normals[v].z) > detail::faces_up * length(normals[v])) out.push_back(mesh.vertices[v]);
   return out;
 }
 
@@ -50,47 +47,49 @@ auto thinned(const std::vector<T>& all, std::size_t most) -> std::vector<T> {
   return out;
 }
 
-/// On a grid over the outline and what is near it: streets and yards are of the same scan as roofs, and of a single
-/// house there is too little roof.
-auto places_over(std::span<const geometry::Polygon> outline, double most) -> std::vector<Point2> {
-  constexpr double beside = 4;  // m; the mesh of a block ends 5 m from it
+/// Streets and yards are of the same scan as roofs, and of a single house there is too little roof. The mesh of a block
+/// ends 5 m from it.
+constexpr double beside = 4;  // m
+auto is_near(std::span<const geometry::Polygon> outline, Point2 at) -> bool {
+  return std::ranges::any_of(outline, [&](const geometry::Polygon& polygon) {
+    return geometry::bounds(polygon.outer).grown(beside).contains(at) &&
+           (geometry::contains(polygon, at) || geometry::boundary_distance(polygon, at) < beside);
+  });
+}
+
+/// On a grid over the outline and what is near it.
+auto places_over(std::span<const geometry::Polygon> outline) -> std::vector<Point2> {
   const auto box = geometry::bounds(outline).grown(beside);
   if (box.empty()) return {};
   const Point2 size = box.most - box.least;
-  const double apart = std::max(finest, std::sqrt(size.x * size.y / most));
+  const double apart = std::max(finest, std::sqrt(size.x * size.y / most_places));
   std::vector<Point2> out;
   const Point2 first{std::floor(box.least.x), std::floor(box.least.y)};  // a shift by whole metres moves all of them
   for (double y = first.y + apart / 2; y < box.most.y; y += apart)
     for (double x = first.x + apart / 2; x < box.most.x; x += apart) {
       const Point2 at{x, y};
-      const auto near = [&](const geometry::Polygon& polygon) {
-        return geometry::bounds(polygon.outer).grown(beside).contains(at) &&
-               (geometry::contains(polygon, at) || geometry::boundary_distance(polygon, at) < beside);
-      };
-      if (std::ranges::any_of(outline, near)) out.push_back(at);
+      if (is_near(outline, at)) out.push_back(at);
     }
   return out;
 }
 
-void put_noise(const detail::Cells& cells, std::span<const Point2> places, model::Accuracy& out, double least = 0) {
-  if (places.empty()) return;
-  const double ground = cells.ground_of_one(places);
-  out.spacing = rounded(std::sqrt(ground));
-  const auto found = detail::noise_from(cells.residuals(places, ground, least), ground);
+void put_noise(const std::optional<detail::Noise>& found, model::Accuracy& out) {
   if (!found) return;
   out.noise = rounded(found->noise);
   out.correlated_area = rounded(found->correlated_area);
   out.windows = found->discs;
 }
 
-/// The surface of a coarse mesh: its vertices are where it bends, so that they say little of the faces between.
-auto sampled(const rays::Scene& scene, std::span<const Point2> places) -> std::vector<Point3> {
-  std::vector<std::optional<double>> heights(places.size());
-  base::parallel_for(places.size(), [&](std::size_t i) { heights[i] = scene.top(places[i]); });
-  std::vector<Point3> out;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (heights[i]) out.push_back({places[i].x, places[i].y, *heights[i]});
-  return out;
+/// A coarse mesh has its vertices where it bends, so that most discs over a small roof hold several of its faces.
+void put_noise(const geometry::Mesh& mesh, std::span<const Point2> places, const std::function<bool(Point2)>& seen,
+               model::Accuracy& out) {
+  if (places.empty()) return;
+  const detail::Cells cells(roof_vertices(mesh));
+  const double ground = cells.ground_of_one(places);
+  out.spacing = rounded(std::sqrt(ground));
+  const bool of_points = !mesh.points.empty();
+  if (of_points || out.spacing <= coarse) put_noise(detail::noise_from(cells.residuals(places, ground), ground), out);
+  if (!of_points && out.windows == 0) put_noise(detail::noise_of_vertices(mesh, seen, ground), out);
 }
 
 void put(const std::optional<double>& given, double& to) { to = given.value_or(to); }
@@ -114,23 +113,13 @@ auto as_points(model::Accuracy out, const std::vector<Point3>& points, std::span
 
 }  // namespace
 
-auto measure_noise(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<const geometry::Polygon> outline,
-                   const Options& o) -> model::Accuracy {
+auto measure_noise(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline, const Options& o)
+    -> model::Accuracy {
   model::Accuracy out;
   if (!o.noise || !o.correlated_area || !o.spacing) {
-    const auto places = places_over(outline, most_places);
-    const bool of_points = !mesh.points.empty();
-    put_noise(detail::Cells(roof_vertices(mesh)), places, out);
-    if (!of_points && !places.empty() && (out.windows == 0 || out.spacing > coarse)) {
-      const double spacing = out.spacing;
-      out = {};
-      // A triangle is even, whatever the noise: a disc says something where it has several.
-      const double several = std::min(largest_of_several, triangles * spacing);
-      put_noise(detail::Cells(sampled(scene, places_over(outline, most_samples))), places, out, several);
-      out.spacing = spacing;
-      if (out.windows > 0) out.correlated_area = std::max(out.correlated_area, rounded(spacing * spacing));
-    }
-    if (of_points) out = as_points(out, mesh.points, places);
+    const auto places = places_over(outline);
+    put_noise(mesh, places, [&](Point2 at) { return is_near(outline, at); }, out);
+    if (!mesh.points.empty()) out = as_points(out, mesh.points, places);
   }
   put(o.noise, out.noise);
   put(o.correlated_area, out.correlated_area);
@@ -169,15 +158,14 @@ auto with_edges(model::Accuracy out, const geometry::Mesh& mesh, const rays::Sce
 
 auto measure(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<const geometry::Polygon> outline,
              const Options& options) -> model::Accuracy {
-  return with_edges(measure_noise(mesh, scene, outline, options), mesh, scene, outline, options);
+  return with_edges(measure_noise(mesh, outline, options), mesh, scene, outline, options);
 }
 
 auto measure_alone(const geometry::Mesh& mesh) -> model::Accuracy {
   model::Accuracy out;
-  const detail::Cells cells(roof_vertices(mesh));
   std::vector<Point2> places;
-  for (const Point3 v : thinned(cells.points(), most_places)) places.push_back(xy(v));
-  put_noise(cells, places, out);
+  for (const Point3 v : thinned(detail::Cells(roof_vertices(mesh)).points(), most_places)) places.push_back(xy(v));
+  put_noise(mesh, places, [](Point2) { return true; }, out);
   return out;
 }
 
@@ -186,7 +174,10 @@ auto noise_of(std::vector<Point3> points) -> model::Accuracy {
   const detail::Cells cells(std::move(points));
   std::vector<Point2> places;
   for (const Point3 p : thinned(cells.points(), most_places)) places.push_back(xy(p));
-  put_noise(cells, places, out);
+  if (places.empty()) return out;
+  const double ground = cells.ground_of_one(places);
+  out.spacing = rounded(std::sqrt(ground));
+  put_noise(detail::noise_from(cells.residuals(places, ground), ground), out);
   out.blur = 0;
   return out;
 }

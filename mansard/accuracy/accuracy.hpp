@@ -41,9 +41,8 @@ struct Options {
 
 /// The same in two steps: noise, correlated area and spacing, which the crowns of trees do not change; and, to add to
 /// them, all that is seen along the outline.
-[[nodiscard]] auto measure_noise(const geometry::Mesh& mesh, const rays::Scene& scene,
-                                 std::span<const geometry::Polygon> outline, const Options& options = {})
-    -> model::Accuracy;
+[[nodiscard]] auto measure_noise(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline,
+                                 const Options& options = {}) -> model::Accuracy;
 [[nodiscard]] auto with_edges(model::Accuracy scan, const geometry::Mesh& mesh, const rays::Scene& scene,
                               std::span<const geometry::Polygon> outline, const Options& options = {})
     -> model::Accuracy;

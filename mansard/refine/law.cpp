@@ -93,7 +93,7 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
 
   // What is smaller than the scan can show is neither proposed nor made. An edge between two samples is known to a
   // twelfth of their squared distance; without noise the triangles' own edges are those of the surface.
-  const double between = scan.spacing * std::min(1.0, scan.noise / o.detail);
+  const double between = points ? scan.spacing * std::min(1.0, scan.noise / o.detail) : 0;
   const double shown = std::clamp(reach * std::sqrt(edge * edge + between * between / 12), o.grid / 2, most_melt);
   o.cuts.min_width = std::max(least_strip, width_of_part * shown);
   o.cuts.line_min_width = std::max(least_strip, width_of_side * shown);

@@ -109,6 +109,17 @@ TEST(Accuracy, of_planted_scans_is_measured_within_a_fifth) {  // guarantee 3
       table.compare("spacing", 1 / std::sqrt(density), found.spacing);
       table.end();
     }
+  // Coarse meshes: the noise of a vertex is its own.
+  for (const double noise : {0.03, 0.06, 0.1})
+    for (const double resolution : {0.8, 1.0, 1.3, 1.6}) {
+      const auto scan = simulate::scan(*surface, nothing_but(noise, 0, resolution, 0), seed++);
+      ASSERT_TRUE(scan);
+      const auto found = measure(scan->mesh, rays::Scene(scan->mesh), outline);
+      table.compare("noise", noise, found.noise);
+      table.compare("area", resolution * resolution, found.correlated_area);
+      table.compare("spacing", resolution, found.spacing);
+      table.end();
+    }
   EXPECT_GE(table.rows(), 60);
   EXPECT_GE(table.share(), 0.98);
 }

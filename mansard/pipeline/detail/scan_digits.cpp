@@ -77,7 +77,7 @@ auto lost_digits(const model::Scene& scene, const ScanSample& sample) -> std::op
   // Noise is measured of the largest block: it contains what was lost, which only makes this check milder.
   const auto largest =
       std::ranges::max_element(sample.blocks, {}, [](const auto& b) { return b.mesh.vertices.size(); });
-  const auto scan = accuracy::measure_noise(largest->mesh, *largest->rays, largest->outline);
+  const auto scan = accuracy::measure_noise(largest->mesh, largest->outline);
   out.noise = scan.noise;
   constexpr double exact = 0.001;  // m
   if (scan.windows == 0 || scan.noise < exact) return std::nullopt;

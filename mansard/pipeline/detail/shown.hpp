@@ -73,7 +73,7 @@ class Shown {
                                    std::vector<base::Diagnostic>& warnings) -> std::unique_ptr<const Shown> {
   rays::Scene whole(block.mesh);
   report.accuracy = stage("accuracy", tell, report,
-                          [&] { return accuracy::measure_noise(block.mesh, whole, block.outline, options.accuracy); });
+                          [&] { return accuracy::measure_noise(block.mesh, block.outline, options.accuracy); });
   const auto crowns = crowns_over(block, options, run, tell, report, warnings);
   auto shown = std::make_unique<const Shown>(block, std::move(whole), crowns);
   report.accuracy = stage("accuracy", tell, report, [&] {
