@@ -130,6 +130,10 @@ auto measure_noise(const geometry::Mesh& mesh, std::span<const geometry::Polygon
 
 auto with_edges(model::Accuracy out, const geometry::Mesh& mesh, const rays::Scene& scene,
                 std::span<const geometry::Polygon> outline, const Options& o) -> model::Accuracy {
+  // What is assumed of edges is in proportion to the noise: of an exact surface they are exact.
+  const double share = std::min(1.0, out.noise / model::Accuracy{}.noise);
+  out.blur *= share;
+  out.edge_noise *= share;
   if (!o.blur || !o.edge_noise || !o.walls || !o.offset_x || !o.offset_y || !o.offset_spread) {
     const auto transects = detail::across(outline, mesh, scene);
     if (const auto blur = detail::blur_from(transects)) {
