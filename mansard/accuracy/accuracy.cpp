@@ -15,8 +15,9 @@ using geometry::Point2;
 using geometry::Point3;
 
 constexpr std::size_t most_places = 700;
-constexpr double finest = 0.5;  // m between places
-constexpr double coarse = 0.6;  // m: of a mesh whose vertices are farther apart, few discs hold one roof alone
+constexpr double finest = 0.5;        // m between places
+constexpr double least_noise = 1e-3;  // m: of less no scan was measured
+constexpr double coarse = 0.6;        // m: of a mesh whose vertices are farther apart, few discs hold one roof alone
 
 /// Three digits: what a logarithm's last bit says is not that of another processor.
 auto rounded(double value) -> double {
@@ -137,7 +138,9 @@ auto with_edges(model::Accuracy out, const geometry::Mesh& mesh, const rays::Sce
   if (!o.blur || !o.edge_noise || !o.walls || !o.offset_x || !o.offset_y || !o.offset_spread) {
     const auto transects = detail::across(outline, mesh, scene);
     if (const auto blur = detail::blur_from(transects)) {
-      out.blur = rounded(*blur);
+      // Even triangles, larger than what a scan rounds: what looks rounded is a steep foot of the roof.
+      const bool exact = mesh.points.empty() && out.spacing > coarse && out.noise < least_noise;
+      out.blur = exact ? 0 : rounded(*blur);
       out.transects = transects.transects.size();
       double walls = 0;
       for (const auto& one : transects.transects) walls += one.walls;
