@@ -16,6 +16,8 @@ using geometry::Point3;
 
 constexpr std::size_t most_places = 700;
 constexpr double finest = 0.5;        // m between places
+/// m: in smaller discs, the noise of points that were matched is one error, and looks like none.
+constexpr double least_of_points = 1;
 constexpr double least_noise = 1e-3;  // m: of less no scan was measured
 constexpr double coarse = 0.6;        // m: of a mesh whose vertices are farther apart, few discs hold one roof alone
 
@@ -85,32 +87,20 @@ void put_noise(const std::optional<detail::Noise>& found, model::Accuracy& out) 
 void put_noise(const geometry::Mesh& mesh, std::span<const Point2> places, const std::function<bool(Point2)>& seen,
                model::Accuracy& out) {
   if (places.empty()) return;
-  const detail::Cells cells(roof_vertices(mesh));
+  const bool of_points = !mesh.points.empty();
+  const detail::Cells cells(of_points ? mesh.points : roof_vertices(mesh));
   const double ground = cells.ground_of_one(places);
   out.spacing = rounded(std::sqrt(ground));
-  const bool of_points = !mesh.points.empty();
-  if (of_points || out.spacing <= coarse) put_noise(detail::noise_from(cells.residuals(places, ground), ground), out);
+  if (of_points || out.spacing <= coarse)
+    put_noise(detail::noise_from(cells.residuals(places, ground, of_points ? least_of_points : 0), ground), out);
   if (!of_points && out.windows == 0) put_noise(detail::noise_of_vertices(mesh, seen, ground), out);
+  // A plane through a point and its neighbours, a dozen points, shows less than a tenth of the variance of noise that is
+  // one error over twenty: it shows the noise rather than the roof, and a point is no measurement of its own.
+  constexpr double most_points = 20;
+  if (of_points && out.windows > 0 && out.correlated_area < most_points * ground) out.point_area = ground;
 }
 
 void put(const std::optional<double>& given, double& to) { to = given.value_or(to); }
-
-/// What was measured of the surface of a cloud, said of its points: a vertex is the mean of some, and where the noise
-/// of vertices is independent, so is that of points. Where it is correlated over so many points that the plane through
-/// a point's neighbours shows the noise rather than the roof, a point is no measurement of its own.
-auto as_points(model::Accuracy out, const std::vector<Point3>& points, std::span<const Point2> places)
-    -> model::Accuracy {
-  constexpr double independent = 1.5, most_points = 50;  // of the ground of a vertex; four dozen neighbours
-  if (out.windows == 0) return out;
-  const double ground = detail::Cells(points).ground_of_one(places);
-  if (out.correlated_area <= independent * out.spacing * out.spacing) {
-    out.noise = rounded(out.noise * std::sqrt(out.correlated_area / ground));
-    out.correlated_area = rounded(ground);
-  }
-  out.spacing = rounded(std::sqrt(ground));
-  if (out.correlated_area < most_points * ground) out.point_area = ground;
-  return out;
-}
 
 }  // namespace
 
@@ -120,7 +110,6 @@ auto measure_noise(const geometry::Mesh& mesh, std::span<const geometry::Polygon
   if (!o.noise || !o.correlated_area || !o.spacing) {
     const auto places = places_over(outline);
     put_noise(mesh, places, [&](Point2 at) { return is_near(outline, at); }, out);
-    if (!mesh.points.empty()) out = as_points(out, mesh.points, places);
   }
   put(o.noise, out.noise);
   put(o.correlated_area, out.correlated_area);

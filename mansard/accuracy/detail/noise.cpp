@@ -128,9 +128,9 @@ auto Cells::disc_at(Point2 at, double radius, std::size_t every) const -> std::o
   return Disc{std::max(0.0, rest / sums.count) / (1 + dot(slope, slope)), sums.count};
 }
 
-auto Cells::residuals(std::span<const Point2> places, double ground) const -> std::vector<Residual> {
+auto Cells::residuals(std::span<const Point2> places, double ground, double least) const -> std::vector<Residual> {
   std::vector<double> all;
-  for (double radius = std::sqrt(full * ground / pi) * 1.05; radius < largest_radius; radius *= growth)
+  for (double radius = std::max(least, std::sqrt(full * ground / pi) * 1.05); radius < largest_radius; radius *= growth)
     all.push_back(radius);
   if (!all.empty() && all.back() < largest_radius / 1.15) all.push_back(largest_radius);
   std::vector<std::optional<Residual>> found(all.size());

@@ -38,8 +38,9 @@ class Cells {
   [[nodiscard]] auto points() const -> const std::vector<geometry::Point3>& { return points_; }
   /// m²: the ground of one point, in the median over the places.
   [[nodiscard]] auto ground_of_one(std::span<const geometry::Point2> places) const -> double;
-  /// One for every radius from that which has a dozen points to 4 m at which enough discs are full.
-  [[nodiscard]] auto residuals(std::span<const geometry::Point2> places, double ground_of_one) const
+  /// One for every radius from that which has a dozen points, and at least `least`, to 4 m at which enough discs are
+  /// full.
+  [[nodiscard]] auto residuals(std::span<const geometry::Point2> places, double ground_of_one, double least = 0) const
       -> std::vector<Residual>;
 
  private:
