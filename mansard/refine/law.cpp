@@ -91,8 +91,8 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.lines.robust = std::max(least_robust, reach * scan.noise);
   o.lines.min_spread = std::clamp(spread_of_slope * scan.noise, least_spread, most_spread);
 
-  // What is smaller than the scan can show is neither proposed nor made. An edge between two samples is known to a
-  // twelfth of their squared distance; without noise the triangles' own edges are those of the surface.
+  // What is smaller than the scan can show is neither proposed nor made. An edge between two points is known to a
+  // twelfth of their squared distance; where a surface has its edges was measured.
   const double between = points ? scan.spacing * std::min(1.0, scan.noise / o.detail) : 0;
   const double shown = std::clamp(reach * std::sqrt(edge * edge + between * between / 12), o.grid / 2, most_melt);
   o.cuts.min_width = std::max(least_strip, width_of_part * shown);
@@ -101,8 +101,8 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.cuts.min_step = std::max(wanted_step * o.detail, std::min(most_step, seen_step * scan.noise));
   o.bare.noise = std::clamp(on_face * scan.noise, least_robust, most_on_face);
   // A structure is shown where there are some samples for each of its numbers, and where it is wider than its edges.
-  const double sample = points ? scan.point_area : between * between, side = width_of_side * o.cuts.min_width;
-  const double shown_area = std::max(samples_of_number * numbers_of_part * sample, side * side);
+  const double side = width_of_side * o.cuts.min_width;
+  const double shown_area = std::max(samples_of_number * numbers_of_part * scan.point_area, side * side);
   o.cuts.min_area = std::max(o.least_area, std::min(structure, shown_area));
   return o;
 }
