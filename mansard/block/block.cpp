@@ -154,7 +154,6 @@ class Grounds {
     std::optional<double> around{};  ///< z of the ground somewhat farther off, where that is another
     [[nodiscard]] auto of_block() const -> double { return around.value_or(z); }
   };
-  static constexpr double same_ground = 0.4;  // m; unevenness of gardens and pavements beside a house
   [[nodiscard]] auto of(std::size_t member) -> Found {
     const auto& footprint = scene_.feature(block_.members[member].feature);
     // Heights of files are above sea level, those here above the frames of scene and block.
@@ -166,13 +165,8 @@ class Grounds {
     const double share = options_.ground_percentile / 100;
     if (!samples_.empty())
       if (const auto z = detail::percentile(samples_[member], share, options_.ground_area)) {
-        if (auto found = detail::terrain_at_walls(around_.shapes[member], samples_[member], options_)) {
-          // The low heights of the ring are steadier. They are right where they are what is lowest at the walls.
-          const double off = *z - found->lowest;
-          if (std::abs(off) > same_ground) return {found->lowest, GroundSource::scan, found->walls, *z};
-          found->walls.error = std::hypot(found->walls.error, off);
-          return {*z, GroundSource::scan, found->walls};
-        }
+        if (const auto found = detail::terrain_at_walls(around_.shapes[member], samples_[member], options_))
+          return {found->lowest, GroundSource::scan, found->walls, *z};
         return {*z, GroundSource::scan};
       }
     if (const auto z = of_neighbours()) return {*z, GroundSource::neighbours};

@@ -172,7 +172,7 @@ auto noise_from(std::span<const Residual> residuals, double ground) -> std::opti
   const auto kept = residuals.first(count);
   // ln V − ln model by correlation length; what is above the model may be structure, and counts less.
   constexpr double above = 0.6;
-  constexpr double as_good = 0.15;  // of (ln V)²: independent noise is believed where that of its V is unexplained
+  constexpr double as_good = 0.15;  // of (ln V)²: independent noise is accepted where that of its V is unexplained
   const double white = std::sqrt(ground / (2 * pi));
   Noise best;
   double least = std::numeric_limits<double>::infinity();
