@@ -15,7 +15,7 @@ using geometry::Point2;
 using geometry::Point3;
 
 constexpr std::size_t most_places = 700;
-constexpr double finest = 0.5;        // m between places
+constexpr double finest = 0.5;  // m between places
 /// m: in smaller discs, the noise of points that were matched is one error, and looks like none.
 constexpr double least_of_points = 1;
 constexpr double least_noise = 1e-3;  // m: of less no scan was measured
@@ -94,8 +94,8 @@ void put_noise(const geometry::Mesh& mesh, std::span<const Point2> places, const
   if (of_points || out.spacing <= coarse)
     put_noise(detail::noise_from(cells.residuals(places, ground, of_points ? least_of_points : 0), ground), out);
   if (!of_points && out.windows == 0) put_noise(detail::noise_of_vertices(mesh, seen, ground), out);
-  // A plane through a point and its neighbours, a dozen points, shows less than a tenth of the variance of noise that is
-  // one error over twenty: it shows the noise rather than the roof, and a point is no measurement of its own.
+  // A plane through a point and its neighbours, a dozen points, shows less than a tenth of the variance of noise that
+  // is one error over twenty: it shows the noise rather than the roof, and a point is no measurement of its own.
   constexpr double most_points = 20;
   if (of_points && out.windows > 0 && out.correlated_area < most_points * ground) out.point_area = ground;
 }
@@ -109,7 +109,8 @@ auto measure_noise(const geometry::Mesh& mesh, std::span<const geometry::Polygon
   model::Accuracy out;
   if (!o.noise || !o.correlated_area || !o.spacing) {
     const auto places = places_over(outline);
-    put_noise(mesh, places, [&](Point2 at) { return is_near(outline, at); }, out);
+    put_noise(
+        mesh, places, [&](Point2 at) { return is_near(outline, at); }, out);
   }
   put(o.noise, out.noise);
   put(o.correlated_area, out.correlated_area);
@@ -161,7 +162,8 @@ auto measure_alone(const geometry::Mesh& mesh) -> model::Accuracy {
   model::Accuracy out;
   std::vector<Point2> places;
   for (const Point3 v : thinned(detail::Cells(roof_vertices(mesh)).points(), most_places)) places.push_back(xy(v));
-  put_noise(mesh, places, [](Point2) { return true; }, out);
+  put_noise(
+      mesh, places, [](Point2) { return true; }, out);
   return out;
 }
 
@@ -198,20 +200,22 @@ auto combined(std::span<const model::Accuracy> all) -> model::Accuracy {
   put(middle([](const auto& one) { return one.blur; }, transects), out.blur);
   put(middle([](const auto& one) { return one.edge_noise; }, transects), out.edge_noise);
   put(middle([](const auto& one) { return one.walls; }, transects), out.walls);
+  // An error that was estimated from few walls may be small by chance: none counts as less than the median.
+  const auto edges = [](const auto& one) { return one.edges; };
+  const double usual = middle([](const auto& one) { return one.offset_error; }, edges).value_or(0);
   double weight = 0;
   Point2 sum;
   for (const auto& one : all) {
     out.windows += one.windows, out.transects += one.transects, out.edges += one.edges;
     if (one.edges == 0) continue;
-    const double w = 1 / std::max(1e-6, one.offset_error * one.offset_error);
+    const double error = std::max({1e-3, usual, one.offset_error}), w = 1 / (error * error);
     weight += w;
     sum = sum + w * one.offset;
   }
   if (weight > 0) {
     out.offset = (1 / weight) * sum;
     out.offset_error = std::sqrt(1 / weight);
-    put(middle([](const auto& one) { return one.offset_spread; }, [](const auto& one) { return one.edges; }),
-        out.offset_spread);
+    put(middle([](const auto& one) { return one.offset_spread; }, edges), out.offset_spread);
   }
   return out;
 }

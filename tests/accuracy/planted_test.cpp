@@ -213,6 +213,18 @@ TEST(Accuracy, does_not_depend_on_order_or_frame) {  // guarantee 1
   }
 }
 
+/// A box whose footprint is drawn 0.2 m too far on one side: an offset and a common distance suit three walls of four.
+TEST(Accuracy, of_few_walls_has_the_error_of_few_walls) {
+  const auto truth = test::truth_of({test::house("a", 0, 0, 10, 12, 6)});
+  const auto scan = test::scanned(truth, exact());
+  const std::vector<geometry::Polygon> outline{{{{-0.2, 0}, {10, 0}, {10, 12}, {-0.2, 12}}, {}}};
+  const auto found = measure(scan.mesh, rays::Scene(scan.mesh), outline);
+  ASSERT_EQ(found.edges, 4U);
+  EXPECT_GT(found.offset_spread, 0.03);
+  EXPECT_LT(found.offset_spread, 0.2);
+  EXPECT_GT(found.offset_error, 0.03);
+}
+
 TEST(Accuracy, takes_what_is_given_instead_of_measuring_it) {
   const auto truth = town();
   const auto scan = test::scanned(truth, exact());

@@ -267,19 +267,32 @@ auto offset_from(const Transects& all) -> std::optional<Offset> {
     walls.push_back({edge.outward, base::mean_median(std::move(outside)), edge.length});
   }
   if (walls.size() < least_edges) return std::nullopt;
-  // outside = outward · offset + common, robust by reweighting with Huber's function.
+  // outside = outward · offset + common, robust by reweighting with Huber's function. Of few walls three numbers leave
+  // so little that the fit would pass through all but one: then all count.
+  constexpr std::size_t few = 8, numbers = 3;
+  const auto count = static_cast<double>(walls.size());
+  const double unfitted = count / (count - numbers);  // of the squares, what a fit leaves
   Point2 offset;
   double common = 0, spread = 0, weight = 0, determinant = 0;
   double nxx = 0, nxy = 0, nyy = 0;
   const auto rest = [&](const Wall& wall) { return wall.outside - dot(wall.outward, offset) - common; };
-  for (int round = 0; round < 20; ++round) {
+  const auto spread_now = [&] {
     std::vector<double> off;
-    for (const auto& wall : walls) off.push_back(std::abs(rest(wall)));
-    spread = std::max(1e-4, of_median * base::mean_median(std::move(off)));
+    double squares = 0, lengths = 0;
+    for (const auto& wall : walls) {
+      off.push_back(std::abs(rest(wall)));
+      squares += wall.weight * rest(wall) * rest(wall), lengths += wall.weight;
+    }
+    const double squared = walls.size() < few ? squares / lengths : std::pow(of_median * base::mean_median(off), 2);
+    return std::max(1e-4, std::sqrt(unfitted * squared));
+  };
+  for (int round = 0; round < 20; ++round) {
+    spread = spread_now();
     double sx = 0, sy = 0, so = 0, xx = 0, xyy = 0, yy = 0, xo = 0, yo = 0;
     weight = 0;
     for (const auto& wall : walls) {
-      const double w = wall.weight * std::min(1.0, 1.5 * spread / std::max(1e-9, std::abs(rest(wall))));
+      const double off = std::max(1e-9, std::abs(rest(wall)));
+      const double w = wall.weight * (walls.size() < few ? 1.0 : std::min(1.0, 1.5 * spread / off));
       const auto [x, y] = wall.outward;
       weight += w, sx += w * x, sy += w * y, so += w * wall.outside;
       xx += w * x * x, xyy += w * x * y, yy += w * y * y, xo += w * x * wall.outside, yo += w * y * wall.outside;
@@ -292,6 +305,7 @@ auto offset_from(const Transects& all) -> std::optional<Offset> {
     offset = {(rx * nyy - ry * nxy) / determinant, (ry * nxx - rx * nxy) / determinant};
     common = (so - sx * offset.x - sy * offset.y) / weight;
   }
+  spread = spread_now();
   const double mean = weight / static_cast<double>(walls.size());
   const double variance = spread * spread * mean * std::max(nxx, nyy) / determinant;
   return Offset{offset, std::sqrt(variance), spread, walls.size()};
