@@ -8,6 +8,7 @@
 
 #include "mansard/base/text.hpp"
 #include "mansard/base/utf8.hpp"
+#include "mansard/model/value_text.hpp"
 #include "mansard/report/attributes.hpp"
 
 namespace mansard::report {
@@ -52,14 +53,6 @@ auto ids_of(const compare::State& state, const std::vector<std::uint32_t>& build
 auto outline_of(const Changes& changes, const Change& change) -> std::vector<geometry::Polygon> {
   return change.now.empty() ? changes.old.buildings[change.old.front()].outline
                             : changes.now.buildings[change.now.front()].outline;
-}
-
-auto text_of(const model::Value& value) -> std::string {
-  if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  if (const auto* number = std::get_if<std::int64_t>(&value)) return std::to_string(*number);
-  if (const auto* number = std::get_if<double>(&value)) return to_text(*number);
-  return {};
 }
 
 auto json_of(const model::Value& value) -> Json {
@@ -149,7 +142,7 @@ auto changes_csv(const Changes& changes) -> std::string {
   out += "\r\n";
   for (const auto& change : changes.found.changes) {
     out += csv_cell(change.now.empty() ? std::string() : ids_of(changes.now, change.now));
-    for (const auto& [name, value] : change_attributes(changes, change)) out += "," + csv_cell(text_of(value));
+    for (const auto& [name, value] : change_attributes(changes, change)) out += "," + csv_cell(model::text_of(value));
     out += "\r\n";
   }
   return out;

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "mansard/base/text.hpp"
 #include "mansard/base/utf8.hpp"
 #include "mansard/formats/detail/parts.hpp"
+#include "mansard/model/value_text.hpp"
 
 namespace mansard::formats::detail {
 namespace {
@@ -56,17 +56,6 @@ auto identifier_of(const std::string& name) -> std::string {
   }
   if (out.empty() || (out[0] >= '0' && out[0] <= '9')) out.insert(0, "_");
   return out;
-}
-
-auto text_of(const model::Value& value) -> std::string {
-  struct Text {
-    auto operator()(std::monostate) const -> std::string { return {}; }
-    auto operator()(bool v) const -> std::string { return v ? "true" : "false"; }
-    auto operator()(std::int64_t v) const -> std::string { return std::to_string(v); }
-    auto operator()(double v) const -> std::string { return base::to_text(v); }
-    auto operator()(const std::string& v) const -> std::string { return base::as_utf8(v); }
-  };
-  return std::visit(Text{}, value);
 }
 
 auto real_of(const model::Value& value) -> double {
@@ -168,7 +157,7 @@ class ColumnWriter {
       case Kind::real: append_raw(held_, value == nullptr ? no_real : real_of(*value)); break;
       case Kind::text:
         if (value != nullptr) {
-          const std::string text = text_of(*value);
+          const std::string text = base::as_utf8(model::text_of(*value));
           held_ += text;
           length_ += text.size();
         }
@@ -332,7 +321,7 @@ auto TableBytes::add(const Column& column, std::uint32_t number, base::Spool& ro
   bool any = false;
   const auto looked = for_each_row(rows, [&](const Row& row) {
     const model::Value* value = value_in(row);
-    any = any || (value != nullptr && !text_of(*value).empty());
+    any = any || (value != nullptr && !model::text_of(*value).empty());
   });
   if (!looked) return looked.error();
   // A view must not be empty, and texts without a value would be one. Numbers are written even so: readers, the 3D

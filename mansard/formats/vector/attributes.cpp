@@ -13,6 +13,7 @@
 #include "mansard/base/options.hpp"
 #include "mansard/base/text.hpp"
 #include "mansard/base/utf8.hpp"
+#include "mansard/model/value_text.hpp"
 
 namespace mansard::formats {
 namespace {
@@ -118,14 +119,6 @@ auto value_of(const OGRFeature& feature, int field) -> model::Value {
   }
 }
 
-auto text_of(const model::Value& value) -> std::string {
-  if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
-  if (const auto* number = std::get_if<double>(&value)) return base::to_text(*number);
-  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  return {};
-}
-
 /// The attribute's texts, empty where it is null or missing. Most sources have the same attributes at the same places.
 auto column(const std::vector<RawFeature>& features, const std::string& name) -> std::vector<std::string> {
   std::vector<std::string> out;
@@ -136,7 +129,7 @@ auto column(const std::vector<RawFeature>& features, const std::string& name) ->
     if (place >= all.size() || all[place].first != name)
       place =
           static_cast<std::size_t>(std::ranges::find(all, name, &model::Attributes::value_type::first) - all.begin());
-    out.push_back(place < all.size() ? text_of(all[place].second) : std::string());
+    out.push_back(place < all.size() ? model::text_of(all[place].second) : std::string());
   }
   return out;
 }
