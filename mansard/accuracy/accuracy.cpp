@@ -94,9 +94,9 @@ void put_noise(const geometry::Mesh& mesh, std::span<const Point2> places, const
   if (of_points || out.spacing <= coarse)
     put_noise(detail::noise_from(cells.residuals(places, ground, of_points ? least_of_points : 0), ground), out);
   if (!of_points && out.windows == 0) put_noise(detail::noise_of_vertices(mesh, seen, ground), out);
-  // A plane through a point and its neighbours, a dozen points, shows less than a tenth of the variance of noise that
-  // is one error over twenty: it shows the noise rather than the roof, and a point is no measurement of its own.
-  constexpr double most_points = 20;
+  // Where noise is one error over so many points, the plane through a point and its neighbours shows the noise rather
+  // than the roof: a point is no measurement of its own.
+  constexpr double most_points = 50;  // four dozen neighbours
   if (of_points && out.windows > 0 && out.correlated_area < most_points * ground) out.point_area = ground;
 }
 
