@@ -42,17 +42,23 @@ SHARED = [  # name, scan, footprints (none: derived), further options
 ]
 # Building: why it costs more than others of its size, from the columns beside it and what is known of its scan.
 FEW = "3 points/m²: few samples, while making a roof costs the same"
+CLUTTER = "a flat roof full of structures, each cut out by a search of its own (decision 132)"
 WHY = {
-    "block_A_3 `{57A29B73-F312-4C17-B33C-A91C5AC1E468}`": FEW + "; 169 corners",
-    "b9 `main`": "a flat roof full of structures, each cut out by a search of its own (decision 132)",
-    "delft_points `b31bbd91c-00ba-11e6-b420-2bdcc4ab5d7f`": "five parts on 54 m²: pieces are searched, joined and searched once more",
-    "delft_points `b31bbff68-00ba-11e6-b420-2bdcc4ab5d7f`": "five parts on 51 m², 36 corners",
-    "block_A_3 `{75880515-DA3B-49F3-868A-97DD1193EF71}`": FEW + "; eight parts",
+    "block_A_3 `{57A29B73-F312-4C17-B33C-A91C5AC1E468}`": FEW + "; the outline has bays and piers",
+    "block_A_3 `{75880515-DA3B-49F3-868A-97DD1193EF71}`": FEW + "; many parts",
     "block_A_3 `{7E3CC435-E15C-4C8A-996A-8E746CB54424}`": FEW,
-    "campus `derived-1`": "nine parts, 40 corners",
-    "block_A_3 `{E5248470-7A74-438C-88FE-D596BB3987DD}`": FEW + "; eight parts on 67 m²",
-    "block_A_3 `{23D1C43E-FAD1-4BF9-86A9-74178BD0697E}`": FEW + "; 17 parts",
+    "block_A_3 `{E5248470-7A74-438C-88FE-D596BB3987DD}`": FEW + "; many parts on 67 m²",
+    "block_A_3 `{23D1C43E-FAD1-4BF9-86A9-74178BD0697E}`": FEW + "; many parts",
+    "block_A_3 `{EA541FCF-CC5D-4317-A6DA-D4BD6496A9A2}`": FEW + "; a hip that is parallel to no wall",
     "block_A_perfect `{EA541FCF-CC5D-4317-A6DA-D4BD6496A9A2}`": "an exact scan: differences of centimetres are significant, and worth a search",
+    "b9 `main`": CLUTTER,
+    "zhongshan_L19 `B2`": CLUTTER,
+    "zhongshan_L19 `B3`": CLUTTER + "; its parts are united",
+    "campus `derived-1`": "an outline derived from the scan, with many parts",
+    "delft `b31bc9c58-00ba-11e6-b420-2bdcc4ab5d7f`": "a steep foot over an outline with piers of centimetres",
+    "delft_points `b31bbd91c-00ba-11e6-b420-2bdcc4ab5d7f`": "many parts on 54 m²: pieces are searched, joined and searched once more",
+    "delft_points `b31bbff68-00ba-11e6-b420-2bdcc4ab5d7f`": "many corners on 51 m²",
+    "delft_points `b31bc2680-00ba-11e6-b420-2bdcc4ab5d7f`": "many corners on 59 m²",
 }
 
 
