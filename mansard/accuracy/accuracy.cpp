@@ -52,17 +52,17 @@ auto thinned(const std::vector<T>& all, std::size_t most) -> std::vector<T> {
 
 /// Streets and yards are of the same scan as roofs, and of a single house there is too little roof. The mesh of a block
 /// ends 5 m from it.
-constexpr double beside = 4;  // m
+constexpr double near_outline = 4;  // m
 auto is_near(std::span<const geometry::Polygon> outline, Point2 at) -> bool {
   return std::ranges::any_of(outline, [&](const geometry::Polygon& polygon) {
-    return geometry::bounds(polygon.outer).grown(beside).contains(at) &&
-           (geometry::contains(polygon, at) || geometry::boundary_distance(polygon, at) < beside);
+    return geometry::bounds(polygon.outer).grown(near_outline).contains(at) &&
+           (geometry::contains(polygon, at) || geometry::boundary_distance(polygon, at) < near_outline);
   });
 }
 
 /// On a grid over the outline and what is near it.
 auto places_over(std::span<const geometry::Polygon> outline) -> std::vector<Point2> {
-  const auto box = geometry::bounds(outline).grown(beside);
+  const auto box = geometry::bounds(outline).grown(near_outline);
   if (box.empty()) return {};
   const Point2 size = box.most - box.least;
   const double apart = std::max(finest, std::sqrt(size.x * size.y / most_places));
