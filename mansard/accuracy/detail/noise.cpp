@@ -210,9 +210,9 @@ auto noise_from(std::span<const Residual> residuals, double ground) -> std::opti
 
 auto noise_of_vertices(const geometry::Mesh& mesh, const std::function<bool(Point2)>& seen, double ground)
     -> std::optional<Noise> {
-  // Creases have more than noise, and a fifth of all is noise alone: of the triangles of a polygon with n corners n − 3
-  // pairs are even, and half of n lie over its border. The quantile of the normal distribution at 0.6 is that of its
-  // absolute value at 0.2.
+  // Creases have more than noise. At least a tenth is noise alone: of the triangles of a polygon with n corners n − 3
+  // pairs are even, and half of n lie over its border. The quantile of the normal distribution at 0.55 is that of its
+  // absolute value at 0.1.
   constexpr double even = 0.1, normal_quantile = 0.1257;
   constexpr std::size_t least_pairs = 12;
   struct Side {  // of a triangle, by place: whether vertices are shared is a matter of the file
