@@ -83,21 +83,47 @@ void put_noise(const std::optional<detail::Noise>& found, model::Accuracy& out) 
   out.windows = found->discs;
 }
 
+/// What noise is measured by: the points of a cloud, the vertices of a surface.
+auto samples_of(const geometry::Mesh& mesh) -> detail::Cells {
+  return detail::Cells(mesh.points.empty() ? roof_vertices(mesh) : mesh.points);
+}
+
+/// Some of the samples, evenly.
+auto places_on(const detail::Cells& samples) -> std::vector<Point2> {
+  std::vector<Point2> out;
+  for (const Point3 p : thinned(samples.points(), most_places)) out.push_back(xy(p));
+  return out;
+}
+
+void put_noise_of_points(const detail::Cells& points, std::span<const Point2> places, double ground,
+                         model::Accuracy& out) {
+  put_noise(detail::noise_from(points.residuals(places, ground, least_of_points), ground), out);
+}
+
 /// A coarse mesh has its vertices where it bends, so that most discs over a small roof hold several of its faces.
-void put_noise(const geometry::Mesh& mesh, std::span<const Point2> places, const std::function<bool(Point2)>& seen,
-               model::Accuracy& out) {
-  if (places.empty()) return;
-  const bool of_points = !mesh.points.empty();
-  const detail::Cells cells(of_points ? mesh.points : roof_vertices(mesh));
-  const double ground = cells.ground_of_one(places);
+void put_noise_of_surface(const geometry::Mesh& mesh, const detail::Cells& vertices, std::span<const Point2> places,
+                          double ground, const std::function<bool(Point2)>& seen, model::Accuracy& out) {
+  if (out.spacing <= coarse) put_noise(detail::noise_from(vertices.residuals(places, ground), ground), out);
+  if (out.windows == 0) put_noise(detail::noise_of_vertices(mesh, seen, ground), out);
+}
+
+/// m²: the ground of one sample, which is the spacing too.
+auto put_spacing(const detail::Cells& samples, std::span<const Point2> places, model::Accuracy& out) -> double {
+  const double ground = samples.ground_of_one(places);
   out.spacing = rounded(std::sqrt(ground));
-  if (of_points || out.spacing <= coarse)
-    put_noise(detail::noise_from(cells.residuals(places, ground, of_points ? least_of_points : 0), ground), out);
-  if (!of_points && out.windows == 0) put_noise(detail::noise_of_vertices(mesh, seen, ground), out);
+  return ground;
+}
+
+void put_noise(const geometry::Mesh& mesh, const detail::Cells& samples, std::span<const Point2> places,
+               const std::function<bool(Point2)>& seen, model::Accuracy& out) {
+  if (places.empty()) return;
+  const double ground = put_spacing(samples, places, out);
+  if (mesh.points.empty()) return put_noise_of_surface(mesh, samples, places, ground, seen, out);
+  put_noise_of_points(samples, places, ground, out);
   // Where noise is one error over so many points, the plane through a point and its neighbours shows the noise rather
   // than the roof: a point is no measurement of its own.
   constexpr double most_points = 50;  // four dozen neighbours
-  if (of_points && out.windows > 0 && out.correlated_area < most_points * ground) out.point_area = ground;
+  if (out.windows > 0 && out.correlated_area < most_points * ground) out.point_area = ground;
 }
 
 void put(const std::optional<double>& given, double& to) { to = given.value_or(to); }
@@ -110,7 +136,7 @@ auto measure_noise(const geometry::Mesh& mesh, std::span<const geometry::Polygon
   if (!o.noise || !o.correlated_area || !o.spacing) {
     const auto places = places_over(outline);
     put_noise(
-        mesh, places, [&](Point2 at) { return is_near(outline, at); }, out);
+        mesh, samples_of(mesh), places, [&](Point2 at) { return is_near(outline, at); }, out);
   }
   put(o.noise, out.noise);
   put(o.correlated_area, out.correlated_area);
@@ -160,22 +186,18 @@ auto measure(const geometry::Mesh& mesh, const rays::Scene& scene, std::span<con
 
 auto measure_alone(const geometry::Mesh& mesh) -> model::Accuracy {
   model::Accuracy out;
-  std::vector<Point2> places;
-  for (const Point3 v : thinned(detail::Cells(roof_vertices(mesh)).points(), most_places)) places.push_back(xy(v));
+  const auto samples = samples_of(mesh);
   put_noise(
-      mesh, places, [](Point2) { return true; }, out);
+      mesh, samples, places_on(samples), [](Point2) { return true; }, out);
   return out;
 }
 
 auto noise_of(std::vector<Point3> points) -> model::Accuracy {
   model::Accuracy out;
-  const detail::Cells cells(std::move(points));
-  std::vector<Point2> places;
-  for (const Point3 p : thinned(cells.points(), most_places)) places.push_back(xy(p));
+  const detail::Cells samples(std::move(points));
+  const auto places = places_on(samples);
   if (places.empty()) return out;
-  const double ground = cells.ground_of_one(places);
-  out.spacing = rounded(std::sqrt(ground));
-  put_noise(detail::noise_from(cells.residuals(places, ground), ground), out);
+  put_noise_of_points(samples, places, put_spacing(samples, places, out), out);
   out.blur = 0;
   return out;
 }
