@@ -96,6 +96,13 @@ auto largest_of(const HeightsOver& all, const Looked& looked, Doubted what) -> s
   return std::nullopt;
 }
 
+/// Of the whole footprint, beside walls too.
+auto differences_and_walls(const Looked& looked) -> HeightsOver {
+  return looked_over(looked, 0, [&](geometry::Point2 at) {
+    return geometry::contains(looked.footprint, at) ? difference_at(looked, at) : nothing;
+  });
+}
+
 /// The point without a scan that is nearest to the middle of all of them.
 auto middle_of_unseen(const Looked& looked) -> std::optional<Place> {
   constexpr double is_unseen = 0;
@@ -120,9 +127,7 @@ auto middle_of_unseen(const Looked& looked) -> std::optional<Place> {
 }  // namespace
 
 auto differences_on_roof(const Looked& looked) -> HeightsOver {
-  auto out = looked_over(looked, 0, [&](geometry::Point2 at) {
-    return geometry::contains(looked.footprint, at) ? difference_at(looked, at) : nothing;
-  });
+  auto out = differences_and_walls(looked);
   const auto built = looked_over(looked, 0, [&](geometry::Point2 at) {
     return geometry::contains(looked.footprint, at) ? looked.model.top(at).value_or(looked.ground) : nothing;
   });
@@ -136,6 +141,7 @@ auto place_of(std::string_view reason, const Looked& looked) -> std::optional<Pl
   std::optional<Place> found;
   if (reason == "confidence-beside") found = largest_of(differences_outside(looked), looked, Doubted::outside);
   if (reason == "confidence-rim") found = largest_of(differences_inside(looked), looked, Doubted::inside);
+  if (reason == "confidence-walls") found = largest_of(differences_and_walls(looked), looked, Doubted::roof);
   if (reason == "confidence-unseen") found = middle_of_unseen(looked);
   return found ? found : largest_of(differences_on_roof(looked), looked, Doubted::roof);
 }

@@ -1,6 +1,7 @@
 #include "mansard/confidence/confidence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -19,6 +20,10 @@ struct Reason {
 };
 
 auto percent(double share) -> std::string { return base::to_text(100 * share, 0) + " %"; }
+
+/// Share of the footprint.
+auto share_at_ground(const Evidence& e) -> double { return e[Measure::low] + e[Measure::razed]; }
+constexpr double most_of_it = 0.5;
 
 auto reasons() -> const std::vector<Reason>& {
   using enum Measure;
@@ -48,8 +53,12 @@ auto reasons() -> const std::vector<Reason>& {
                 " m off the model's roof (root mean square), and uneven over " + percent(e[rough]) + " of it";
        }},
       {"confidence-beside",
-       {ring_high, ring_side, gap},
+       {ring_high, ring_side, gap, seamless},
        [](const Evidence& e) {
+         constexpr double most_of_a_side = 0.5;
+         if (e[seamless] >= most_of_a_side)
+           return std::string("the roof goes on beyond the footprint along one side: the building may be larger or ") +
+                  "elsewhere, or its roof overhangs";
          return "beside the footprint the scan is as high as the building along " + percent(e[ring_side]) +
                 " of one side: the building may be larger or elsewhere, or something stands against it";
        }},
@@ -60,11 +69,14 @@ auto reasons() -> const std::vector<Reason>& {
                 percent(e[rim_side]) + " of one side: the building may be smaller or elsewhere";
        }},
       {"confidence-ground",
-       {low, ground_off, doubtful, height},
+       {low, razed, ground_off, doubtful, height},
        [](const Evidence& e) {
-         return e[low] > 0.5
-                    ? "the scan is at the ground over " + percent(e[low]) +
-                          " of the footprint: the building may be gone, or newer than the scan"
+         constexpr double notable = 0.1;  // of the footprint
+         const double at_ground = share_at_ground(e);
+         return at_ground > notable
+                    ? "the scan is at the ground over " + percent(at_ground) +
+                          " of the footprint: the building may be " +
+                          (at_ground > most_of_it ? "gone, or newer than the scan" : "smaller, or a part of it gone")
                     : "its height above the ground, " + base::metres(e[height]) + ", is less sure than that of others";
        }},
       {"confidence-samples",
@@ -73,8 +85,18 @@ auto reasons() -> const std::vector<Reason>& {
          return base::to_text(e[samples], 0) + " points or independent areas of the scan for " +
                 base::to_text(e[planes], 0) + " roof faces are few";
        }},
+      {"confidence-walls",
+       {misplaced, steps},
+       [](const Evidence& e) {
+         constexpr double notable = 0.1;  // m
+         const double off = std::sqrt(e[misplaced]);
+         return off >= notable
+                    ? "along walls within the roof the scan shows their other side: that alone is an error of " +
+                          base::metres(off) + " (root mean square)"
+                    : std::string("its walls within the roof are so high that a few centimetres count as an error");
+       }},
       {"confidence-form",
-       {planes, small_planes, steep, steps, spread, relief, walls, area},
+       {planes, small_planes, steep, spread, relief, walls, area},
        [](const Evidence& e) {
          constexpr double notable = 0.05;  // of the roof
          std::string words = "roofs of this form are less often right: " + base::to_text(e[planes], 0) +
@@ -107,12 +129,18 @@ auto confidence_of(const Evidence& evidence) -> Confidence {
   double wrong = detail::wrong_bias, error = detail::error_bias;
   std::vector<std::pair<double, const Reason*>> against;
   for (const auto& reason : reasons()) against.emplace_back(0, &reason);
+  // Where the scan is at the ground, that is why it is below the model.
+  constexpr std::array below_model{Measure::below, Measure::patch_below, Measure::sunk, Measure::rim_low,
+                                   Measure::rim_side};
+  const bool gone = share_at_ground(evidence) > most_of_it;
   for (const auto& term : detail::terms) {
     const double by = scaled(evidence, term) - term.usual;
     wrong += term.wrong * by;
     error += term.error * by;
+    const auto of =
+        gone && std::ranges::find(below_model, term.measure) != below_model.end() ? Measure::low : term.measure;
     for (auto& [sum, reason] : against)
-      if (std::ranges::find(reason->measures, term.measure) != reason->measures.end()) sum += term.wrong * by;
+      if (std::ranges::find(reason->measures, of) != reason->measures.end()) sum += term.wrong * by;
   }
   Confidence out;
   out.right = 1 / (1 + geometry::exponential(wrong));
@@ -126,7 +154,7 @@ auto confidence_of(const Evidence& evidence) -> Confidence {
 }
 
 auto class_of(double right) -> std::string_view {
-  constexpr double high = 0.9, medium = 0.5;
+  constexpr double high = 0.85, medium = 0.5;
   return right >= high ? "high" : right >= medium ? "medium" : "low";
 }
 
@@ -141,6 +169,7 @@ auto codes() -> std::vector<base::Code> {
       {"confidence-rim", "Inside a footprint the scan is lower than its building.", look, 0},
       {"confidence-ground", "A building's height above the ground is less sure than others, or it has none.", look, 0},
       {"confidence-samples", "The scan has few points over a building.", look, 0},
+      {"confidence-walls", "Walls within a roof may stand elsewhere.", look, 0},
       {"confidence-form", "A building has a form that is seldom right.", look, 0},
       {"confidence-height", "A footprint's own height or number of storeys is another than the model's.", look, 0},
   };

@@ -25,7 +25,7 @@ struct Confidence {
 /// Guarantee: a function of the evidence alone.
 [[nodiscard]] auto confidence_of(const Evidence& evidence) -> Confidence;
 
-/// "high" (0.9 and more), "medium" (0.5 and more) or "low".
+/// "high" (0.85 and more), "medium" (0.5 and more) or "low".
 [[nodiscard]] auto class_of(double right) -> std::string_view;
 
 [[nodiscard]] auto codes() -> std::vector<base::Code>;

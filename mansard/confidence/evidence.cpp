@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "mansard/base/statistics.hpp"
@@ -20,11 +21,11 @@ using geometry::Point2;
 using geometry::Polygon;
 
 constexpr std::array<std::string_view, measures> names{
-    "area",      "height",      "unseen",      "crowns",   "bare",         "rms",      "bias",    "above",
-    "below",     "patch_above", "patch_below", "stacked",  "sunk",         "top",      "rough",   "ring_high",
-    "ring_side", "gap",         "rim_low",     "rim_side", "free",         "walls",    "steps",   "relief",
-    "low",       "ground_off",  "samples",     "planes",   "small_planes", "steep",    "spread",  "noise",
-    "spacing",   "blur",        "edge_noise",  "offset",   "height_off",   "doubtful", "fallback"};
+    "area",  "height",      "unseen",      "crowns",     "bare",         "razed",   "rms",    "bias",      "above",
+    "below", "patch_above", "patch_below", "stacked",    "sunk",         "top",     "rough",  "ring_high", "ring_side",
+    "gap",   "seamless",    "rim_low",     "rim_side",   "free",         "walls",   "steps",  "misplaced", "relief",
+    "low",   "ground_off",  "samples",     "planes",     "small_planes", "steep",   "spread", "noise",     "spacing",
+    "blur",  "edge_noise",  "offset",      "height_off", "doubtful",     "fallback"};
 
 constexpr double ring_from = 0.5, ring_to = 1.25, around = 2.0;  // m outside an outline
 constexpr double rim_from = 0.25, rim_to = 1.0;                  // m inside
@@ -79,13 +80,26 @@ struct Sides {
     for (std::size_t s = 0; s < sides; ++s) hits += hit[s], cells += all[s];
     return cells > 0 ? hits / cells : 0;
   }
-  /// Of sides with a hundredth of the cells or more: of a corner or two nothing follows.
-  [[nodiscard]] auto most() const -> double {
-    double cells = 0, out = 0;
+  /// Of sides with a twentieth of the cells or more: of a corner or two nothing follows.
+  [[nodiscard]] auto most() const -> double { return range().second; }
+  /// What the side that is hit most has more than the one that is hit least; 0 of a single side.
+  [[nodiscard]] auto contrast() const -> double {
+    const auto [least, most] = range();
+    return most - least;
+  }
+
+ private:
+  [[nodiscard]] auto range() const -> std::pair<double, double> {
+    constexpr double few = 0.05;
+    double cells = 0;
     for (const double n : all) cells += n;
-    for (std::size_t s = 0; s < sides; ++s)
-      if (all[s] >= 0.05 * cells && all[s] > 0) out = std::max(out, hit[s] / all[s]);
-    return out;
+    std::optional<std::pair<double, double>> out;
+    for (std::size_t s = 0; s < sides; ++s) {
+      if (all[s] < few * cells || all[s] <= 0) continue;
+      const double here = hit[s] / all[s];
+      out = out ? std::pair(std::min(out->first, here), std::max(out->second, here)) : std::pair(here, here);
+    }
+    return out.value_or(std::pair(0.0, 0.0));
   }
 };
 
@@ -184,6 +198,33 @@ auto steps_of(const Grid& grid) -> double {
   return sum;
 }
 
+/// m²: what the error grows by where the scan shows the other side of a wall of the model, per area of the footprint.
+/// Rounded edges are as high as half of a wall where it stands.
+auto misplaced_of(const Grid& grid) -> double {
+  double sum = 0, inside = 0;
+  for (std::size_t c = 0; c < grid.cells.size(); ++c) {
+    const auto& cell = grid.cells[c];
+    if (!cell.inside) continue;
+    inside += 1;
+    if (!cell.built || !cell.seen) continue;
+    double low = *cell.built, high = *cell.built;
+    bool at_outline = false;
+    for (const std::size_t by : {1, 2})
+      grid.around_cell(c, by, [&](std::size_t n) {
+        const auto& near = grid.cells[n];
+        if (!near.inside) at_outline = at_outline || by == 1;
+        if (!near.inside || !near.built) return;
+        low = std::min(low, *near.built);
+        high = std::max(high, *near.built);
+      });
+    if (at_outline || high - low < evaluate::step_of_walls(grid.step)) continue;
+    const double other = *cell.built - low > high - *cell.built ? low : high;
+    const double off = std::abs(*cell.seen - *cell.built);
+    if (off > std::abs(*cell.seen - other)) sum += off * off;
+  }
+  return inside > 0 ? sum / inside : 0;
+}
+
 void measure_form(const Site& site, Evidence& out) {
   using enum Measure;
   constexpr double least_plane = 1, small = 4, steepest = 0.5;  // m², m², cosine of 60°
@@ -211,7 +252,7 @@ void measure_roof(const Site& site, const Grid& grid, Evidence& out) {
   const double rough_by = std::max(least_rough, sure_rough * site.accuracy.noise);
   std::vector<double> differences, heights, built;
   std::vector<bool> high(grid.cells.size()), deep(grid.cells.size());
-  double inside = 0, missing = 0, hidden = 0, without = 0, beside = 0, squares = 0, compared = 0, lower = 0;
+  double inside = 0, missing = 0, hidden = 0, without = 0, gone = 0, beside = 0, squares = 0, compared = 0, lower = 0;
   double roughness = 0, rough_cells = 0;
   std::array<double, 8> ring{};
   for (std::size_t c = 0; c < grid.cells.size(); ++c) {
@@ -220,11 +261,12 @@ void measure_roof(const Site& site, const Grid& grid, Evidence& out) {
     inside += 1;
     if (!cell.seen) missing += 1;
     if (!cell.seen && cell.scanned) hidden += 1;
-    if (!cell.built) without += 1;
+    const bool at_ground = cell.seen && *cell.seen < site.ground + low_roof;
+    if (!cell.built) (at_ground ? gone : without) += 1;
     if (cell.wall) beside += 1;
     if (cell.built) built.push_back(*cell.built - site.ground);
     if (cell.seen) heights.push_back(*cell.seen);
-    if (cell.seen && *cell.seen < site.ground + low_roof) lower += 1;
+    if (cell.built && at_ground) lower += 1;
     const auto difference = cell.off();
     if (!difference) continue;
     differences.push_back(*difference);
@@ -243,12 +285,14 @@ void measure_roof(const Site& site, const Grid& grid, Evidence& out) {
     if (std::abs(*difference - 0.5 * (ring[3] + ring[4])) > rough_by) roughness += 1;
   }
   if (inside <= 0) return;
+  out[misplaced] = misplaced_of(grid);
   out[steps] = steps_of(grid) / (inside * grid.step * grid.step);
   const double cell_area = grid.step * grid.step;
   out[area] = inside * cell_area;
   out[unseen] = missing / inside;
   out[crowns] = hidden / inside;
   out[bare] = without / inside;
+  out[razed] = gone / inside;
   out[walls] = beside / inside;
   if (!built.empty()) {
     std::ranges::sort(built);
@@ -280,6 +324,15 @@ void measure_roof(const Site& site, const Grid& grid, Evidence& out) {
   if (rough_cells > 0) out[rough] = roughness / rough_cells;
 }
 
+/// z at which the scan would go on outside, `distance` m from a place of the outline in the direction `out`; none where
+/// it bends inside, or there is none.
+auto going_on(const rays::Scene& scene, Point2 on, Point2 out, double distance) -> std::optional<double> {
+  constexpr double first = 0.3, second = 0.6, third = 0.9, straight = 0.1;  // m inside, and m
+  const auto a = scene.top(on - first * out), b = scene.top(on - second * out), c = scene.top(on - third * out);
+  if (!a || !b || !c || std::abs(*a - 2 * *b + *c) > straight) return std::nullopt;
+  return *a + (*a - *c) / (third - first) * (distance + first);
+}
+
 /// What the scan shows along the outline, where no neighbour is.
 void measure_outline(const Site& site, const Grid& grid, Evidence& out) {
   using enum Measure;
@@ -287,13 +340,13 @@ void measure_outline(const Site& site, const Grid& grid, Evidence& out) {
   // Of a block of hundreds of houses a few are near.
   struct Other {
     const Polygon* polygon;
-    geometry::Box2 reach;
+    geometry::Box2 reach, far;
   };
   std::vector<Other> others;
   const auto looked_at = geometry::bounds(site.footprint).grown(around);
   for (const auto& other : site.others)
-    if (const auto reach = geometry::bounds(other.outer).grown(of_others); reach.overlaps(looked_at))
-      others.push_back({&other, reach});
+    if (const auto box = geometry::bounds(other.outer); box.grown(around).overlaps(looked_at))
+      others.push_back({&other, box.grown(of_others), box.grown(around)});
   const auto in_others = [&](Point2 p) {
     return std::ranges::any_of(
         others, [&](const Other& other) { return other.reach.contains(p) && geometry::contains(*other.polygon, p); });
@@ -303,7 +356,14 @@ void measure_outline(const Site& site, const Grid& grid, Evidence& out) {
              return other.reach.contains(p) && geometry::boundary_distance(*other.polygon, p) < of_others;
            });
   };
-  Sides outside, within;
+  constexpr double least_off = 0.25, sure = 3;  // as on the roof
+  const double tolerance = std::max(least_off, sure * site.accuracy.noise);
+  const auto nearer_to_others = [&](Point2 p, double distance) {
+    return std::ranges::any_of(others, [&](const Other& other) {
+      return other.far.contains(p) && geometry::boundary_distance(*other.polygon, p) < distance;
+    });
+  };
+  Sides outside, within, seams;
   double free_cells = 0, rim_cells = 0;
   std::vector<double> grounds;
   for (const auto& cell : grid.cells) {
@@ -317,8 +377,13 @@ void measure_outline(const Site& site, const Grid& grid, Evidence& out) {
       if (cell.seen && cell.built) within.add(way, *cell.seen < site.ground + 0.5 * (*cell.built - site.ground));
     } else if (distance >= rim_from && distance <= around) {
       if (!cell.seen) continue;
-      if (*cell.seen > std::max(half, site.ground + lowest_wall) && !in_others(cell.at))
-        out[gap] += grid.step * grid.step;
+      const bool high = *cell.seen > std::max(half, site.ground + lowest_wall) && !in_others(cell.at);
+      if (high) out[gap] += grid.step * grid.step;
+      if (distance >= ring_from && distance <= ring_to && !in_others(cell.at) && !nearer_to_others(cell.at, distance)) {
+        const Point2 outward = (-1 / distance) * way;
+        const auto roof = high ? going_on(site.seen, on, outward, distance) : std::nullopt;
+        seams.add(outward, roof && std::abs(*cell.seen - *roof) <= tolerance);
+      }
       if (near_others(cell.at)) continue;
       if (distance < ring_from) continue;
       if (distance <= ring_to) outside.add(-1 * way, *cell.seen > half);
@@ -327,6 +392,7 @@ void measure_outline(const Site& site, const Grid& grid, Evidence& out) {
   }
   out[ring_high] = outside.share();
   out[ring_side] = outside.most();
+  out[seamless] = seams.contrast();
   out[rim_low] = within.share();
   out[rim_side] = within.most();
   if (out[area] > 0) out[gap] /= out[area];

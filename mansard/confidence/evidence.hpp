@@ -22,7 +22,8 @@ enum class Measure : std::uint8_t {
   height,       ///< m; median of the model's heights above the ground
   unseen,       ///< share of the footprint that the scan does not cover, or covers with crowns of trees
   crowns,       ///< share of the footprint below such crowns
-  bare,         ///< share of the footprint without a model
+  bare,         ///< share of the footprint without a model where the scan does not show the ground
+  razed,        ///< share of the footprint without a model where it does
   rms,          ///< m; root mean square of scan − model
   bias,         ///< m; median of the same
   above,        ///< share of cells in which the scan is off above the model
@@ -36,13 +37,17 @@ enum class Measure : std::uint8_t {
   ring_high,    ///< share of a ring outside the free edges in which the scan is above half of the height
   ring_side,    ///< the largest such share of an eighth of that ring, by direction
   gap,  ///< area on no footprint, within 2 m, that is above half of the height in the scan, over that of the footprint
-  rim_low,       ///< share of a rim inside the free edges in which the scan is below half of the model's height there
-  rim_side,      ///< the largest such share of an eighth of that rim
-  free,          ///< length of the free edges, as a share of the outline's
-  walls,         ///< share of the cells that are beside walls
-  steps,         ///< m; squared height × length of the model's own walls within the footprint, over its area
+  seamless,  ///< share of an eighth of that ring in which the scan goes on as it does inside of the outline, nearer to
+             ///< this footprint than to others: the largest less the least, since roofs overhang on all sides
+  rim_low,   ///< share of a rim inside the free edges in which the scan is below half of the model's height there
+  rim_side,  ///< the largest such share of an eighth of that rim
+  free,      ///< length of the free edges, as a share of the outline's
+  walls,     ///< share of the cells that are beside walls
+  steps,     ///< m; squared height × length of the model's own walls within the footprint, over its area
+  misplaced,  ///< m²; mean square of scan − model over the footprint, of cells where the scan shows the other side of a
+              ///< wall
   relief,        ///< m; standard deviation of the scan's heights over the footprint
-  low,           ///< share of cells in which the scan is less than 1.5 m above the ground
+  low,           ///< share of cells in which the scan is less than 1.5 m above the ground, and a model stands
   ground_off,    ///< m; the model's ground above the median of the scan outside the ring, where that is lower than half
   samples,       ///< points, or independent areas of the scan's noise, over the footprint
   planes,        ///< roof faces of the model of 1 m² or more
@@ -58,7 +63,7 @@ enum class Measure : std::uint8_t {
   doubtful,      ///< 1 where the ground is assumed or the lowest that is seen
   fallback       ///< share of the parts that are simpler than their profiles
 };
-inline constexpr std::size_t measures = 39;
+inline constexpr std::size_t measures = 42;
 /// As in the enumeration.
 [[nodiscard]] auto name_of(Measure measure) -> std::string_view;
 

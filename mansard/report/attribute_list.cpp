@@ -18,7 +18,7 @@ auto attributes() -> std::vector<formats::Attribute> {
       "The earlier run whose model it is, since nothing has changed there; only with --since.");
   add("ms_success", building, "boolean", "", "Whether the building has a model.");
   add("ms_quality", building, "string", "",
-      "How likely the model is right: high (ms_confidence of 0.9 or more, and no check failed), medium (0.5 or more), "
+      "How likely the model is right: high (ms_confidence of 0.85 or more, and no check failed), medium (0.5 or more), "
       "low; unknown: it was made without a scan, or edited since; none: it has no model.");
   add("ms_checks", building, "string", "",
       "no check failed, or those that did: outcome (some part is simpler than its profiles), validity (of a level of "

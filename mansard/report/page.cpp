@@ -205,7 +205,7 @@ void add_counts(const RunPage& page, Html& html) {
   if (page.rated > 0) {
     rows.clear();
     const auto models = page.by_class[0] + page.by_class[1] + page.by_class[2] + page.by_class[3];
-    constexpr std::array words{"high: probability of 0.9 or more to be right", "medium: 0.5 or more",
+    constexpr std::array words{"high: probability of 0.85 or more to be right", "medium: 0.5 or more",
                                "low: less than 0.5", "without a probability"};
     for (std::size_t c = 0; c < words.size(); ++c)
       if (c < 3 || page.by_class[c] > 0)

@@ -47,11 +47,14 @@ struct Fault {
 TEST(Confidence, names_what_speaks_most_against_a_model_first) {
   const std::vector<Fault> faults{
       {"a deck or scaffold all around, or a footprint that is too small",
-       {{ring_high, 0.9}, {ring_side, 1}, {gap, 0.5}},
+       {{ring_high, 0.9}, {ring_side, 1}, {gap, 1.5}},
        "confidence-beside"},
       {"the building is gone",
        {{low, 1}, {rim_low, 1}, {rim_side, 1}, {below, 1}, {patch_below, 60}, {height, 0.5}},
        "confidence-ground"},
+      {"a roof that goes on beyond the footprint", {{ring_side, 1}, {gap, 0.2}, {seamless, 1}}, "confidence-beside"},
+      {"a tower beside its place", {{steps, 40}, {misplaced, 3}}, "confidence-walls"},
+      {"most of the footprint is a yard, and the rest low", {{razed, 0.9}, {height, 2}}, "confidence-ground"},
       {"a register that knows two storeys more", {{height_off, -6}}, "confidence-height"},
   };
   for (const auto& fault : faults) {
@@ -66,9 +69,10 @@ TEST(Confidence, names_what_speaks_most_against_a_model_first) {
 
 TEST(Confidence, falls_with_every_measure_that_speaks_against_a_model) {
   const std::vector<std::pair<confidence::Measure, double>> worse{
-      {unseen, 0.8},  {above, 0.4},  {below, 0.4}, {patch_above, 30}, {patch_below, 30}, {stacked, 2},
-      {sunk, 2},      {top, 6},      {rough, 0.3}, {ring_high, 0.8},  {ring_side, 1},    {gap, 0.4},
-      {rim_low, 0.8}, {rim_side, 1}, {low, 0.9},   {height_off, 5},   {fallback, 1},     {small_planes, 0.6}};
+      {unseen, 0.8},  {above, 0.4},  {below, 0.4},  {patch_above, 30}, {patch_below, 30}, {stacked, 2},
+      {sunk, 2},      {top, 6},      {rough, 0.3},  {ring_high, 0.8},  {ring_side, 1},    {gap, 0.4},
+      {rim_low, 0.8}, {rim_side, 1}, {low, 0.9},    {height_off, 5},   {fallback, 1},     {small_planes, 0.6},
+      {bare, 0.5},    {razed, 0.5},  {seamless, 1}, {steps, 20},       {misplaced, 2}};
   const double before = confidence_of(good()).right;
   for (const auto& [measure, value] : worse) {
     auto evidence = good();
@@ -79,8 +83,8 @@ TEST(Confidence, falls_with_every_measure_that_speaks_against_a_model) {
 
 TEST(Confidence, has_classes) {
   EXPECT_EQ(confidence::class_of(0.95), "high");
-  EXPECT_EQ(confidence::class_of(0.9), "high");
-  EXPECT_EQ(confidence::class_of(0.7), "medium");
+  EXPECT_EQ(confidence::class_of(0.85), "high");
+  EXPECT_EQ(confidence::class_of(0.84), "medium");
   EXPECT_EQ(confidence::class_of(0.49), "low");
 }
 

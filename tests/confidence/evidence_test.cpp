@@ -67,9 +67,10 @@ struct House {
 
 TEST(Evidence, of_an_exact_model_has_nothing_against_it) {
   const auto found = House().evidence();
-  for (const auto measure : {unseen,      crowns,   bare,       rms, bias,  above,        below,     patch_above,
-                             patch_below, stacked,  sunk,       top, rough, ring_high,    ring_side, gap,
-                             rim_low,     rim_side, ground_off, low, steep, small_planes, steps})
+  for (const auto measure :
+       {unseen,     crowns, bare,  rms,          bias,      above,     below,     patch_above, patch_below,
+        stacked,    sunk,   top,   rough,        ring_high, ring_side, gap,       rim_low,     rim_side,
+        ground_off, low,    steep, small_planes, steps,     seamless,  misplaced, razed})
     EXPECT_NEAR(found[measure], 0, 1e-6) << confidence::name_of(measure);
   EXPECT_NEAR(found[area], 96, 1);
   EXPECT_NEAR(found[height], 7.5, 0.15);
@@ -88,6 +89,7 @@ TEST(Evidence, of_a_tower_has_no_error_at_its_walls) {
   EXPECT_NEAR(found[rms], 0, 1e-6);
   EXPECT_GT(found[walls], 0.15);
   EXPECT_NEAR(found[steps], 36.0 * 36 * 16 / 96, 1) << "36 m high, 16 m long";
+  EXPECT_NEAR(found[misplaced], 36.0 * 36 * 4 * 4 * 0.2 / 96, 15) << "0.2 m along each of four walls of 4 m, in cells";
 }
 
 TEST(Evidence, says_how_much_is_not_seen) {
@@ -124,6 +126,7 @@ TEST(Evidence, finds_what_stands_against_the_building) {
   EXPECT_LT(found[ring_high], 0.4);
   EXPECT_NEAR(found[gap], 16.0 / 96, 0.04);
   EXPECT_EQ(found[rim_side], 0);
+  EXPECT_LT(found[seamless], 0.2) << "as high as the eaves, beside a gable";
 }
 
 TEST(Evidence, takes_a_neighbour_for_one) {
@@ -143,6 +146,33 @@ TEST(Evidence, finds_a_footprint_that_is_beside_its_building) {
   const auto found = house.evidence();
   EXPECT_GT(found[rim_side], 0.9) << "east";
   EXPECT_GT(found[ring_side], 0.9) << "west";
+  EXPECT_GT(found[seamless], 0.9) << "west";
+}
+
+TEST(Evidence, knows_a_roof_that_goes_on_from_one_that_overhangs) {
+  House house;
+  house.models = label::classify({solids::box({0, 0}, {12, 8}, 0, 6)}, {}, {});
+  const auto seen_with = [&](Point2 least, Point2 most) {
+    house.scan = level({-20, -20}, {32, 28}, 0);
+    add(house.scan, mesh_of(solids::box(least, most, 0, 6)));
+    return house.evidence()[seamless];
+  };
+  EXPECT_EQ(seen_with({0, 0}, {12, 8}), 0);
+  EXPECT_GT(seen_with({0, 0}, {14, 8}), 0.9) << "to the east";
+  EXPECT_LT(seen_with({-1.5, -1.5}, {13.5, 9.5}), 0.1) << "all around";
+  house.others = {rectangle({12.5, -2}, {22, 10})};
+  EXPECT_LT(seen_with({0, 0}, {22, 8}), 0.1) << "to a neighbour, whose wall is nearer";
+}
+
+TEST(Evidence, tells_ground_without_a_model_from_what_should_have_one) {
+  House house;
+  house.models = label::classify({solids::box({0, 0}, {6, 8}, 0, 6)}, {}, {});
+  house.scan = level({-20, -20}, {32, 28}, 0);
+  add(house.scan, mesh_of(solids::box({0, 0}, {9, 8}, 0, 6)));
+  const auto found = house.evidence();
+  EXPECT_NEAR(found[bare], 0.25, 0.03) << "9 m stand, 6 m are modelled";
+  EXPECT_NEAR(found[razed], 0.25, 0.03);
+  EXPECT_EQ(found[low], 0);
 }
 
 TEST(Evidence, finds_an_empty_footprint) {
