@@ -54,11 +54,11 @@ auto reasons() -> const std::vector<Reason>& {
        }},
       {"confidence-beside",
        {ring_high, ring_side, gap, seamless},
-       [](const Evidence& e) {
+       [](const Evidence& e) -> std::string {
          constexpr double most_of_a_side = 0.5;
          if (e[seamless] >= most_of_a_side)
-           return std::string("the roof goes on beyond the footprint along one side: the building may be larger or ") +
-                  "elsewhere, or its roof overhangs";
+           return "the roof continues beyond the footprint on one side: the building may be larger or elsewhere, "
+                  "or the roof overhangs";
          return "beside the footprint the scan is as high as the building along " + percent(e[ring_side]) +
                 " of one side: the building may be larger or elsewhere, or something stands against it";
        }},
@@ -87,13 +87,12 @@ auto reasons() -> const std::vector<Reason>& {
        }},
       {"confidence-walls",
        {misplaced, steps},
-       [](const Evidence& e) {
+       [](const Evidence& e) -> std::string {
          constexpr double notable = 0.1;  // m
          const double off = std::sqrt(e[misplaced]);
-         return off >= notable
-                    ? "along walls within the roof the scan shows their other side: that alone is an error of " +
-                          base::metres(off) + " (root mean square)"
-                    : std::string("its walls within the roof are so high that a few centimetres count as an error");
+         if (off < notable) return "walls within the roof are so high that a few centimetres count as an error";
+         return "walls within the roof are displaced against the scan, which alone is an error of " +
+                base::metres(off) + " (root mean square)";
        }},
       {"confidence-form",
        {planes, small_planes, steep, spread, relief, walls, area},
@@ -169,7 +168,7 @@ auto codes() -> std::vector<base::Code> {
       {"confidence-rim", "Inside a footprint the scan is lower than its building.", look, 0},
       {"confidence-ground", "A building's height above the ground is less sure than others, or it has none.", look, 0},
       {"confidence-samples", "The scan has few points over a building.", look, 0},
-      {"confidence-walls", "Walls within a roof may stand elsewhere.", look, 0},
+      {"confidence-walls", "Walls within a roof may be displaced.", look, 0},
       {"confidence-form", "A building has a form that is seldom right.", look, 0},
       {"confidence-height", "A footprint's own height or number of storeys is another than the model's.", look, 0},
   };

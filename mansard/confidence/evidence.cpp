@@ -46,6 +46,12 @@ struct Cell {
   }
 };
 
+/// m; a scan that differs by more than this is off.
+auto least_off(const model::Accuracy& accuracy) -> double {
+  constexpr double detail = 0.25, sure = 3;  // m, standard deviations
+  return std::max(detail, sure * accuracy.noise);
+}
+
 /// The place of an outline that is nearest to a point.
 auto nearest_on(std::span<const Polygon> outline, Point2 p) -> Point2 {
   Point2 best = p;
@@ -247,8 +253,8 @@ void measure_form(const Site& site, Evidence& out) {
 /// What the scan shows of the roof.
 void measure_roof(const Site& site, const Grid& grid, Evidence& out) {
   using enum Measure;
-  constexpr double least_off = 0.25, sure = 3, least_rough = 0.25, sure_rough = 4, low_roof = 1.5;
-  const double tolerance = std::max(least_off, sure * site.accuracy.noise);
+  constexpr double least_rough = 0.25, sure_rough = 4, low_roof = 1.5;
+  const double tolerance = least_off(site.accuracy);
   const double rough_by = std::max(least_rough, sure_rough * site.accuracy.noise);
   std::vector<double> differences, heights, built;
   std::vector<bool> high(grid.cells.size()), deep(grid.cells.size());
@@ -340,29 +346,25 @@ void measure_outline(const Site& site, const Grid& grid, Evidence& out) {
   // Of a block of hundreds of houses a few are near.
   struct Other {
     const Polygon* polygon;
-    geometry::Box2 reach, far;
+    geometry::Box2 reach;
   };
   std::vector<Other> others;
   const auto looked_at = geometry::bounds(site.footprint).grown(around);
   for (const auto& other : site.others)
-    if (const auto box = geometry::bounds(other.outer); box.grown(around).overlaps(looked_at))
-      others.push_back({&other, box.grown(of_others), box.grown(around)});
+    if (const auto reach = geometry::bounds(other.outer).grown(around); reach.overlaps(looked_at))
+      others.push_back({&other, reach});
   const auto in_others = [&](Point2 p) {
     return std::ranges::any_of(
         others, [&](const Other& other) { return other.reach.contains(p) && geometry::contains(*other.polygon, p); });
   };
-  const auto near_others = [&](Point2 p) {
-    return in_others(p) || std::ranges::any_of(others, [&](const Other& other) {
-             return other.reach.contains(p) && geometry::boundary_distance(*other.polygon, p) < of_others;
-           });
-  };
-  constexpr double least_off = 0.25, sure = 3;  // as on the roof
-  const double tolerance = std::max(least_off, sure * site.accuracy.noise);
+  /// At most `around`.
   const auto nearer_to_others = [&](Point2 p, double distance) {
     return std::ranges::any_of(others, [&](const Other& other) {
-      return other.far.contains(p) && geometry::boundary_distance(*other.polygon, p) < distance;
+      return other.reach.contains(p) && geometry::boundary_distance(*other.polygon, p) < distance;
     });
   };
+  const auto near_others = [&](Point2 p) { return in_others(p) || nearer_to_others(p, of_others); };
+  const double tolerance = least_off(site.accuracy);
   Sides outside, within, seams;
   double free_cells = 0, rim_cells = 0;
   std::vector<double> grounds;
@@ -377,16 +379,16 @@ void measure_outline(const Site& site, const Grid& grid, Evidence& out) {
       if (cell.seen && cell.built) within.add(way, *cell.seen < site.ground + 0.5 * (*cell.built - site.ground));
     } else if (distance >= rim_from && distance <= around) {
       if (!cell.seen) continue;
-      const bool high = *cell.seen > std::max(half, site.ground + lowest_wall) && !in_others(cell.at);
+      const bool on_none = !in_others(cell.at), in_ring = distance >= ring_from && distance <= ring_to;
+      const bool high = on_none && *cell.seen > std::max(half, site.ground + lowest_wall);
       if (high) out[gap] += grid.step * grid.step;
-      if (distance >= ring_from && distance <= ring_to && !in_others(cell.at) && !nearer_to_others(cell.at, distance)) {
+      if (in_ring && on_none && !nearer_to_others(cell.at, distance)) {
         const Point2 outward = (-1 / distance) * way;
         const auto roof = high ? going_on(site.seen, on, outward, distance) : std::nullopt;
         seams.add(outward, roof && std::abs(*cell.seen - *roof) <= tolerance);
       }
-      if (near_others(cell.at)) continue;
-      if (distance < ring_from) continue;
-      if (distance <= ring_to) outside.add(-1 * way, *cell.seen > half);
+      if (!on_none || distance < ring_from || nearer_to_others(cell.at, of_others)) continue;
+      if (in_ring) outside.add(-1 * way, *cell.seen > half);
       if (*cell.seen < half) grounds.push_back(*cell.seen);
     }
   }

@@ -38,7 +38,7 @@ enum class Measure : std::uint8_t {
   ring_side,    ///< the largest such share of an eighth of that ring, by direction
   gap,  ///< area on no footprint, within 2 m, that is above half of the height in the scan, over that of the footprint
   seamless,  ///< share of an eighth of that ring in which the scan goes on as it does inside of the outline, nearer to
-             ///< this footprint than to others: the largest less the least, since roofs overhang on all sides
+             ///< this footprint than to others: the maximum minus the minimum, since roofs overhang on all sides
   rim_low,   ///< share of a rim inside the free edges in which the scan is below half of the model's height there
   rim_side,  ///< the largest such share of an eighth of that rim
   free,      ///< length of the free edges, as a share of the outline's
@@ -47,7 +47,7 @@ enum class Measure : std::uint8_t {
   misplaced,  ///< m²; mean square of scan − model over the footprint, of cells where the scan shows the other side of a
               ///< wall
   relief,        ///< m; standard deviation of the scan's heights over the footprint
-  low,           ///< share of cells in which the scan is less than 1.5 m above the ground, and a model stands
+  low,           ///< share of cells in which the scan is less than 1.5 m above the ground, and there is a model
   ground_off,    ///< m; the model's ground above the median of the scan outside the ring, where that is lower than half
   samples,       ///< points, or independent areas of the scan's noise, over the footprint
   planes,        ///< roof faces of the model of 1 m² or more

@@ -60,6 +60,15 @@ TEST(ReviewPlace, is_where_the_main_reason_for_doubt_is) {
   EXPECT_NEAR(unseen->at.x, 8.5, 0.3);
   EXPECT_FALSE(unseen->difference);
   EXPECT_FALSE(place(level({{100, 101, 0, 1, 6}}), ""));
+  // A tower is 0.6 m farther east in the scan: the place is at one of its walls, and not on a roof away from walls.
+  const auto tower = level({{0, 10, 0, 8, 6}, {4, 6, 2, 6, 20}});
+  const auto displaced = level({{0, 10, 0, 8, 6}, {4.6, 6.6, 2, 6, 20}, {0, 1, 0, 8, 6.5}});
+  const auto wall = place_of("confidence-walls", {tower, displaced, footprint, neighbour, 0, options});
+  ASSERT_TRUE(wall);
+  EXPECT_TRUE(std::abs(wall->at.x - 4.3) < 0.6 || std::abs(wall->at.x - 6.3) < 0.6) << wall->at.x;
+  const auto elsewhere = place_of("confidence-form", {tower, displaced, footprint, neighbour, 0, options});
+  ASSERT_TRUE(elsewhere);
+  EXPECT_LT(elsewhere->at.x, 2) << "0.5 m higher in the scan, in the west";
 }
 
 /// A gabled house of 12 × 8 m, eaves at 5 m and the ridge at 8 m, in a field.
