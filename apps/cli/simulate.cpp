@@ -3,6 +3,7 @@
 #include "lab/simulate/simulate.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <memory>
@@ -149,6 +150,18 @@ auto stands_on_another(const model::City& city) -> bool {
   });
 }
 
+/// Moves what is at the base of a building to another height.
+void set_base(model::Building& building, double z) {
+  constexpr double same = 1e-3;  // m; vertices are on a grid
+  const auto move = [&](model::LabelledSolid& model) {
+    for (auto& vertex : model.solid.vertices)
+      if (std::abs(vertex.z - building.ground) < same) vertex.z = z;
+  };
+  for (auto& part : building.parts) move(part.model);
+  for (auto& united : building.solids) move(united.model);
+  building.ground = z;
+}
+
 /// Buildings with what is measured of them, as of models that are reconstructed: what those are compared with.
 auto measured(model::City city, const simulate::Scan& scan) -> model::City {
   const auto z0 = static_cast<double>(city.frame.origin[2]);
@@ -158,12 +171,14 @@ auto measured(model::City city, const simulate::Scan& scan) -> model::City {
     auto& building = city.buildings[b];
     model::Building plain{building.id, {}, building.footprint, building.ground, building.parts, building.solids};
     if (plain.solids.empty()) plain.solids = std::move(united[b].solids);
+    const auto ground = b < scan.at_walls.size() ? scan.at_walls[b] : std::nullopt;
+    // Walls go down to the terrain, as those of models do; the planted base may be anywhere in its waves.
+    if (ground) set_base(plain, ground->lowest);
     auto found = report::building_measures(plain, z0, storey);
-    double volume = 0, top = building.ground;
+    double volume = 0, top = plain.ground;
     for (const auto* solid : report::solids_of(plain))
       volume += solid::volume(solid->solid), top = std::max(top, report::top_of(solid->solid));
-    const auto ground = b < scan.at_walls.size() ? scan.at_walls[b] : std::nullopt;
-    found.emplace_back("ms_h_ground", z0 + (ground ? ground->lowest : building.ground));
+    found.emplace_back("ms_h_ground", z0 + plain.ground);
     if (ground) found.emplace_back("ms_h_ground_mean", z0 + ground->mean);
     if (ground) found.emplace_back("ms_h_ground_max", z0 + ground->highest);
     found.emplace_back("ms_h_roof_max", z0 + top);

@@ -97,7 +97,8 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   const double shown = std::clamp(reach * std::sqrt(edge * edge + between * between / 12), o.grid / 2, most_melt);
   o.cuts.min_width = std::max(least_strip, width_of_part * shown);
   o.cuts.line_min_width = std::max(least_strip, width_of_side * shown);
-  o.mansard.min_depth = std::max(least_strip, depth_of_step * shown);
+  o.bends.min_depth = depth_of_step * shown;  // its height is that of a plane, and no strip of its own
+  o.mansard.min_depth = std::max(least_strip, o.bends.min_depth);
   o.cuts.min_step = std::max(wanted_step * o.detail, std::min(most_step, seen_step * scan.noise));
   o.bare.noise = std::clamp(on_face * scan.noise, least_robust, most_on_face);
   // A structure is shown where there are some samples for each of its numbers, and where it is wider than its edges.

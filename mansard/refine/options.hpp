@@ -94,6 +94,11 @@ struct Options {
     double upper_share = 0.5;
   } mansard;
 
+  /// Two pitches where one was (bends).
+  struct Bends {
+    double min_depth = 0.7;  ///< m; no option: decided_by
+  } bends;
+
   /// A level strip along a side with something higher behind it (forms).
   struct Setback {
     double max_depth = 4;   ///< m

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -134,7 +135,13 @@ class RoofFace {
       for (std::size_t i = 0; i < samples.size(); ++i)
         weights[i] = std::min(1.0, huber * scale / std::max(1e-9, left(samples[i])));
     }
-    const double ground = each * static_cast<double>(samples.size()), spread = std::max(noise, scale);
+    const double ground = each * static_cast<double>(samples.size());
+    // Noise that is correlated over several samples shows in each of them. The plane took that of three numbers off
+    // what is left (docs/accuracy.md); where that is more than half, too few are left to tell.
+    constexpr double several = 4, most_taken = 0.5;
+    const double taken = 3 * scan.correlated_area / ground;
+    const bool shows = scan.correlated_area > several * scan.spacing * scan.spacing && taken < most_taken;
+    const double spread = shows ? scale / std::sqrt(1 - taken) : std::max(noise, scale);
     ground_ = ground;
     chance_ = std::min(spread * spread * scan.correlated_area, spread * spread * ground);
     seen_ = true;
@@ -199,10 +206,14 @@ void share_noise(std::vector<std::vector<std::optional<RoofFace>>>& faces) {
 struct Errors {
   std::vector<std::vector<std::optional<RoofFace>>> faces;  ///< of every solid
   double wall = 0;                                          ///< m²; variance of the position of a wall
+  double offset_error = 0;                                  ///< m, of all walls alike
 
-  /// Of a height where a face meets a wall.
+  /// Of a height where a face ends at a wall, beside that of the face.
+  [[nodiscard]] auto of_end(const RoofFace& face) const -> double {
+    return face.slope() * face.slope() * (wall + offset_error * offset_error);
+  }
   [[nodiscard]] auto at_wall(const RoofFace& face, Point2 p) const -> Variance {
-    return sum(face.variance(p), face.slope() * face.slope() * wall);
+    return sum(face.variance(p), of_end(face));
   }
 };
 
@@ -210,19 +221,19 @@ struct Errors {
 auto of_corner(const Errors& errors, const model::LabelledSolid& model,
                const std::vector<std::optional<RoofFace>>& faces, std::uint32_t corner, bool pitched) -> Variance {
   Variance total = 0.0;
-  double count = 0, slope = 0;
+  double count = 0, end = 0;
   const Point2 p = xy(model.solid.vertices[corner]);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (!faces[f] || (pitched && model.solid.faces[f].kind != model::FaceKind::side)) continue;
     const auto& loop = model.solid.faces[f].loops.front();
     if (std::ranges::find(loop, corner) == loop.end()) continue;
     total = sum(total, faces[f]->variance(p));
-    slope = faces[f]->slope();
+    end = errors.of_end(*faces[f]);
     ++count;
   }
   if (count == 0) return std::nullopt;
   // Where one face ends there is a wall.
-  return sum(times(1 / (count * count), total), count > 1 ? 0 : slope * slope * errors.wall);
+  return sum(times(1 / (count * count), total), count > 1 ? 0 : end);
 }
 
 /// Of the height that a share of the roof is below: of the faces that are at that height.
@@ -234,11 +245,26 @@ auto of_percentile(const Errors& errors, double z) -> Variance {
     for (const auto& face : solid) {
       if (!face || face->lowest() > z + same || face->highest() < z - same) continue;
       const double weight = face->ground() / (face->highest() - face->lowest() + same);
-      total = sum(total, times(weight * weight, face->variance(face->centre())));
+      // Half of its height is half of its run inward, and a wall that is moved moves the far end of the face by half.
+      constexpr double moved = 0.25;
+      const double run = moved * moved * face->slope() * face->slope() * errors.wall;
+      total = sum(total, times(weight * weight, sum(face->variance(face->centre()), run)));
       weights += weight;
     }
   if (!(weights > 0)) return std::nullopt;
   return times(1 / (weights * weights), total);
+}
+
+/// m², of the distance of a wall from its place after the common offset.
+auto wall_variance(const model::Accuracy& scan) -> double {
+  // A block of one house may have too few walls to tell footprints from scan: then as the end of its roof is seen.
+  if (!(scan.edges > 0)) return scan.edge_noise * scan.edge_noise;
+  // The spread contains how well a wall is seen: the error of the median of its transects (Kenney, Keeping 1962).
+  constexpr double of_median = std::numbers::pi / 2;
+  const auto edges = static_cast<double>(scan.edges), each = static_cast<double>(scan.transects) / edges;
+  const double spread = scan.offset_spread * scan.offset_spread;
+  const double seen = of_median * scan.edge_noise * scan.edge_noise / std::max(1.0, each);
+  return std::max(spread - seen, std::sqrt(2 / edges) * spread);  // the standard error of a variance
 }
 
 /// m: how far the scan is above a roof along its edge, beyond its noise: a parapet or a gutter that the model lacks.
@@ -274,8 +300,8 @@ auto standard_errors(const model::Building& building, const Evidence& evidence) 
   // What the adjustment of a survey leaves between its images, tiles or strips is the same over a building, and does
   // not show there. Standards allow about as much as noise (USGS Lidar Base Specification: 6 cm within a swath, 8 cm
   // between two); half of the noise is what `mansard simulate` plants (its seams). It moves ground and roof alike.
-  constexpr double common_share = 0.5;
-  const double common = common_share * evidence.accuracy.noise;
+  constexpr double common_share = 0.5, adjusted = 0.02;  // m
+  const double common = std::min(common_share * evidence.accuracy.noise, adjusted);
   const auto add_height = [&](const char* name, Variance variance) { add(name, sum(variance, common * common)); };
   const Variance ground =
       evidence.ground_error ? Variance(*evidence.ground_error * *evidence.ground_error) : std::nullopt;
@@ -283,9 +309,8 @@ auto standard_errors(const model::Building& building, const Evidence& evidence) 
   if (solids.empty()) return out;
   const auto& scan = evidence.accuracy;
   Errors errors;
-  // A block of one house may have too few walls to tell footprints from scan: then as the end of its roof is seen.
-  errors.wall = scan.edges > 0 ? scan.offset_spread * scan.offset_spread + scan.offset_error * scan.offset_error
-                               : scan.edge_noise * scan.edge_noise;
+  errors.wall = wall_variance(scan);
+  errors.offset_error = scan.offset_error;
   Variance volume = 0.0;
   double area_ground = 0;
   Variance wall = 0.0, party = 0.0;

@@ -24,10 +24,10 @@ struct Evidence {
 /// from the face are fitted by a plane, robustly. At a place p the face is off by that plane, which stays because it
 /// was made equal to others or fits another face, and by the error of the plane itself, s² A' (1/F + (p − c)ᵀ M⁻¹ (p −
 /// c)): the covariance of a plane fitted to F m² around c with second moments M (∫ (q − c)(q − c)ᵀ dF), whose noise s
-/// is one error over A' m². s is that of the scan, or of the differences where that is more. Walls are off by the noise
-/// of edges and footprints, δ; a height where a slope meets a wall by δ · slope in addition. Volume and areas add up
-/// what their faces and walls contribute, independent of each other; the ground is one number. Source: the propagation
-/// of errors (C. F. Gauss, Theoria combinationis, 1823).
+/// is one error over A' m². s is that of the differences, with what the plane took of it; where they are too few, that
+/// of the scan if it is more. Walls are off by the noise of edges and footprints, δ; a height where a slope meets a
+/// wall by δ · slope in addition. Volume and areas add up what their faces and walls contribute, independent of each
+/// other; the ground is one number. Source: the propagation of errors (C. F. Gauss, Theoria combinationis, 1823).
 [[nodiscard]] auto standard_errors(const model::Building& building, const Evidence& evidence) -> model::Attributes;
 
 }  // namespace mansard::report

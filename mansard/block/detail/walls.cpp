@@ -260,8 +260,8 @@ struct Trend {
 
   [[nodiscard]] auto row(Point2 p, double away) const -> Vector { return {1, p.x - middle.x, p.y - middle.y, away}; }
   [[nodiscard]] auto at(Point2 p, double away) const -> double { return product(beta, row(p, away)); }
-  [[nodiscard]] auto variance(Point2 p) const -> double {
-    const Vector x = row(p, 0);
+  [[nodiscard]] auto variance(Point2 p, double away) const -> double {
+    const Vector x = row(p, away);
     double sum = 0;
     for (std::size_t i = 0; i < numbers; ++i) sum += x[i] * product(covariance[i], x);
     return sum;
@@ -390,13 +390,13 @@ auto found_in(const Stations& all) -> std::optional<TerrainFound> {
   out.walls.mean = sum / length;
   // Places 3 m apart are independent; four numbers are fitted to them.
   const double places = std::max(1.0, length / apart), left = std::max(1.0, places - static_cast<double>(numbers));
-  const double variance = mean.own() * places / left;
+  // What departs as a whole moves the trend in the middle of the strip, what rises moves it on the way to the wall.
+  const double fitted = (mean.own() * trend.variance(lowest, away) + rise.own() * away * away) / left;
   // Nobody sees the terrain between the strip and the wall: its slope may end anywhere there, or go on. The mean square
   // of what is evenly distributed between 0 and its most is a third of that squared.
   const double slope = geometry::length(Point2{trend.beta[1], trend.beta[2]}) + std::abs(trend.beta[3]);
   const double unseen = slope * nearest / std::sqrt(3.0);
-  out.walls.error = std::sqrt(variance / places * trend.variance(lowest) + mean.unknown() +
-                              rise.unknown() * away * away + unseen * unseen);
+  out.walls.error = std::sqrt(fitted + mean.unknown() + rise.unknown() * away * away + unseen * unseen);
   return out;
 }
 

@@ -28,6 +28,9 @@ struct RoofLine {
 /// The same with the slope given: the weighed robust height at the edge.
 [[nodiscard]] auto raised_line(std::span<const Look> looks, RoofLine start, const Options::Lines& options) -> RoofLine;
 
+/// m²: sums of some thousand squares of up to 100 m² are exact to 1e-10.
+constexpr double same_rest = 1e-9;
+
 /// Running sums: entry i is of the looks before i.
 [[nodiscard]] auto sums_along(std::span<const Look> looks) -> std::vector<geometry::LineSums>;
 

@@ -181,6 +181,10 @@ auto chained(const Profile& profile, std::span<const std::optional<RoofLine>> li
   return out;
 }
 
+auto middles_of(const Judged& judged, const Site& site, const Options& options) -> Looks {
+  return sort_looks(judged, site, options, Used::middle).looks;
+}
+
 auto refitted(const Judged& judged, const Site& site, const Options& options, Used used) -> Plan {
   auto sorted = sort_looks(judged, site, options, used);
   Plan plan = judged.plan;

@@ -23,6 +23,10 @@ enum class Used : std::uint8_t {
 [[nodiscard]] auto refitted(const Judged& judged, const Site& site, const Options& options, Used used = Used::all)
     -> model::Plan;
 
+/// What is seen of the middle of the roof's faces, by profile and by the part of it.
+[[nodiscard]] auto middles_of(const Judged& judged, const Site& site, const Options& options)
+    -> std::vector<std::vector<std::vector<Look>>>;
+
 /// The profile's part from point i to i + 1 as a line; none for walls.
 [[nodiscard]] auto line_of(const model::Profile& profile, std::size_t i) -> std::optional<RoofLine>;
 

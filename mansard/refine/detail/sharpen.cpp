@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mansard/base/statistics.hpp"
+#include "mansard/refine/detail/bends.hpp"
 #include "mansard/refine/detail/forms.hpp"
 #include "mansard/refine/detail/refit.hpp"
 #include "mansard/refine/detail/steps.hpp"
@@ -76,7 +77,7 @@ auto sharpened(Judged judged, const Judge& judge) -> Judged {
     if (!next || next->plan == judged.plan || next->cost > most) break;
     judged = std::move(*next);
   }
-  judged = stepped(uncut(std::move(judged), judge, most), judge, most);
+  judged = bent(stepped(uncut(std::move(judged), judge, most), judge, most), judge);
   if (!nearly_level(judged.plan, options.sharpen.level_slope)) return judged;
   auto flat = judge(levelled(judged.plan, judge.site(), options.forms));
   if (!flat) return judged;

@@ -22,8 +22,7 @@ using model::Plan;
 using model::PlanRing;
 using model::Profile;
 
-constexpr double steep = 1;         // rise per run: 45°
-constexpr double same_rest = 1e-9;  // m²: sums of some thousand squares of up to 100 m² are exact to 1e-10
+constexpr double steep = 1;  // rise per run: 45°
 
 /// What lies over the strip of an edge, nearest first, and its misfit, m²·m².
 struct Strip {

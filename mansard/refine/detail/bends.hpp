@@ -1,0 +1,13 @@
+// Planes that bend along their side.
+#pragma once
+
+#include "mansard/refine/detail/judge.hpp"
+
+namespace mansard::refine::detail {
+
+/// The roof with two pitches where one was, wherever two lines that meet explain nearly all that the one leaves and the
+/// roof is then cheaper: a ledge along the eaves, an eave of a flatter pitch, a steep foot, a gentler top.
+/// Cost: O(cells) for every part of a profile, and a sketch for every bend that is found.
+[[nodiscard]] auto bent(Judged judged, const Judge& judge) -> Judged;
+
+}  // namespace mansard::refine::detail
