@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mansard/refine/law.hpp"
-#include "scans.hpp"
+#include "judged_by_scan.hpp"
 
 namespace {
 
@@ -14,25 +13,15 @@ namespace detail = refine::detail;
 /// A roof over a house of 10 x 8 m between two walls, with that profile on both long sides.
 auto gable(const Profile& side) -> Plan { return plan(rectangle(10, 20, 10, 8), {side, wall(12), side, wall(12)}, 12); }
 
-class Bends : public testing::Test {
+class Bends : public JudgedByScan {
  protected:
   /// What becomes of the first roof, by a scan of the other.
   auto bent(const Plan& roof, const Plan& truth, double noise) -> detail::Judged {
-    mesh_.emplace(scan({truth}, noise));
     model::Accuracy accuracy;
     accuracy.noise = noise, accuracy.correlated_area = 0.1, accuracy.blur = 0, accuracy.edge_noise = noise / 5;
-    options_ = refine::decided_by({}, accuracy);
-    site_ = detail::look(model::polygon_of(roof), ground, *mesh_, options_);
-    judge_.emplace(site_, options_, raising_, run_);
-    before_ = *(*judge_)(roof);
+    before_ = judged(roof, truth, noise, accuracy);
     return detail::bent(before_, *judge_);
   }
-  refine::Options options_;
-  extrude::Options raising_;
-  base::Run run_;
-  std::optional<rays::Scene> mesh_;
-  detail::Site site_;
-  std::optional<detail::Judge> judge_;
   detail::Judged before_;
 };
 

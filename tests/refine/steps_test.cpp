@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "mansard/refine/law.hpp"
-#include "scans.hpp"
+#include "judged_by_scan.hpp"
 
 namespace {
 
@@ -26,24 +25,14 @@ auto sloped(double gutter, double slope) -> Plan {
   return plan(house(), {roof(gutter, slope), wall(9), wall(9), wall(9)}, 9);
 }
 
-class Steps : public testing::Test {
+class Steps : public JudgedByScan {
  protected:
   /// The first roof, judged by a scan of the other.
   auto judged(const Plan& roof, const Plan& truth) -> detail::Judged {
-    mesh_.emplace(scan({truth}, 0.02));
     model::Accuracy accuracy;
     accuracy.noise = 0.1, accuracy.correlated_area = 6, accuracy.blur = 0.2, accuracy.edge_noise = 0.05;
-    options_ = refine::decided_by({}, accuracy);
-    site_ = detail::look(model::polygon_of(roof), ground, *mesh_, options_);
-    judge_.emplace(site_, options_, raising_, run_);
-    return *(*judge_)(roof);
+    return JudgedByScan::judged(roof, truth, 0.02, accuracy);
   }
-  refine::Options options_;
-  extrude::Options raising_;
-  base::Run run_;
-  std::optional<rays::Scene> mesh_;
-  detail::Site site_;
-  std::optional<detail::Judge> judge_;
 };
 
 TEST_F(Steps, stand_in_for_the_slope_that_suits_a_smoothed_step) {

@@ -41,25 +41,18 @@ auto bend_in(std::vector<Look> looks, double area, const Options& options) -> st
   std::ranges::stable_sort(looks, {}, &Look::inward);
   const auto sums = sums_along(looks);
   const double whole = sums.back().residual();
-  // As of roofs that bend (forms.cpp): what is nearer than half of the smallest detail on average is of no interest.
-  constexpr double of_detail = 0.5;
   const double wanted = of_detail * options.detail;
   if (whole <= wanted * wanted * sums.back().weight || whole * area < options.face_price) return std::nullopt;
-  std::size_t best = 0;
-  double least = whole;
-  for (std::size_t i = fewest; i + fewest < looks.size(); ++i) {
-    if (looks[i].inward - looks[i - 1].inward <= same_distance) continue;  // rounding orders them
-    const double left = sums[i].residual() + (sums.back() - sums[i]).residual();
-    if (left < least - same_rest) least = left, best = i;
-  }
+  const auto found = best_parting(looks, sums, Before::line, {.fewest_before = fewest, .fewest_behind = fewest}, whole);
+  if (!found) return std::nullopt;
+  const double gain = whole - found->left;
   const double noise = options.samples.noise * options.samples.noise * sums.back().weight;
-  if (best == 0 || (whole - least) * area < options.face_price || whole - least < explained * (whole - noise))
-    return std::nullopt;
+  if (gain * area < options.face_price || gain < explained * (whole - noise)) return std::nullopt;
   // One row of samples has no slope.
   const double row = std::sqrt(area) / 2;
-  if (looks[best - 1].inward - looks.front().inward < row || looks.back().inward - looks[best].inward < row)
+  if (looks[found->at - 1].inward - looks.front().inward < row || looks.back().inward - looks[found->at].inward < row)
     return std::nullopt;
-  const auto low = best_line(sums[best], options), high = best_line(sums.back() - sums[best], options);
+  const auto low = best_line(sums[found->at], options), high = best_line(sums.back() - sums[found->at], options);
   if (!low || !high || std::abs(low->slope - high->slope) < options.forms.min_slope) return std::nullopt;
   return Bend{*low, *high, (high->at_edge - low->at_edge) / (low->slope - high->slope)};
 }
@@ -88,12 +81,12 @@ auto with_bend(const Profile& profile, std::size_t part, const Bend& bend, const
 
 auto bent(Judged judged, const Judge& judge) -> Judged {
   const auto& options = judge.options();
+  auto looks = middles_of(judged, judge.site(), options);
   /// The roof with a bend in that part, if it is cheaper.
   const auto bend = [&](std::size_t p, std::size_t part) -> std::optional<Judged> {
     const Profile& profile = judged.plan.profiles[p];
     if (!line_of(profile, part)) return std::nullopt;
-    auto looks = middles_of(judged, judge.site(), options);
-    const auto found = bend_in(std::move(looks[p][part]), judge.site().sample_area, options);
+    const auto found = bend_in(looks[p][part], judge.site().sample_area, options);
     auto other = found ? with_bend(profile, part, *found, options) : std::nullopt;
     if (!other) return std::nullopt;
     Plan plan = judged.plan;
@@ -110,7 +103,12 @@ auto bent(Judged judged, const Judge& judge) -> Judged {
     any = false;
     for (std::size_t p = 0; p < judged.plan.profiles.size(); ++p)
       for (std::size_t part = 1; part + 1 < judged.plan.profiles[p].size(); ++part)
-        if (auto next = bend(p, part)) judged = std::move(*next), any = true, ++part;
+        if (auto next = bend(p, part)) {
+          judged = std::move(*next);
+          looks = middles_of(judged, judge.site(), options);
+          any = true;
+          ++part;
+        }
   }
   return judged;
 }

@@ -7,7 +7,7 @@ namespace mansard::refine::detail {
 
 /// The roof with two pitches where one was, wherever two lines that meet explain nearly all that the one leaves and the
 /// roof is then cheaper: a ledge along the eaves, an eave of a flatter pitch, a steep foot, a gentler top.
-/// Cost: O(cells) for every part of a profile, and a sketch for every bend that is found.
+/// Cost: O(cells), two sketches for every bend that is tried, and O(cells) for every one that is taken.
 [[nodiscard]] auto bent(Judged judged, const Judge& judge) -> Judged;
 
 }  // namespace mansard::refine::detail

@@ -198,7 +198,6 @@ auto profile_through(const std::vector<RoofLine>& lines) -> std::optional<Profil
 auto bent_line(std::span<const Look> looks, double area_of_look, const Options& options) -> std::optional<Profile> {
   constexpr std::size_t fewest_pitches = 3, most_pitches = 12;
   constexpr std::size_t most_places = 96;  // at which a pitch may end: eight for each
-  constexpr double of_detail = 0.5;
   const auto sums = sums_along(looks);
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   const std::size_t places = std::min(most_places, looks.size() / fewest);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mansard/base/statistics.hpp"
+#include "mansard/refine/detail/order.hpp"
 
 namespace mansard::refine::detail {
 namespace {
@@ -70,6 +71,21 @@ auto sums_along(std::span<const Look> looks) -> std::vector<geometry::LineSums> 
     sums.back().add(look.inward, look.height, look.weight);
   }
   return sums;
+}
+
+auto best_parting(std::span<const Look> looks, std::span<const geometry::LineSums> sums, Before before,
+                  const Within& within, double least) -> std::optional<Parting> {
+  constexpr double same_rest = 1e-9;  // m²: sums of some thousand squares of up to 100 m² are exact to 1e-10
+  std::optional<Parting> best;
+  for (std::size_t i = within.fewest_before; i + within.fewest_behind < looks.size(); ++i) {
+    if (looks[i].inward < within.from) continue;
+    if (looks[i].inward > within.to) break;
+    if (looks[i].inward - looks[i - 1].inward <= same_distance) continue;  // rounding orders them
+    const double left =
+        (before == Before::level ? sums[i].residual_level() : sums[i].residual()) + (sums.back() - sums[i]).residual();
+    if (left < least - same_rest) least = left, best = Parting{i, left};
+  }
+  return best;
 }
 
 auto middle_height(std::span<const Look> looks) -> double {

@@ -1,6 +1,9 @@
 // Robust straight lines through heights over a distance: what a roof plane is, seen along its edge.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,11 +31,31 @@ struct RoofLine {
 /// The same with the slope given: the weighed robust height at the edge.
 [[nodiscard]] auto raised_line(std::span<const Look> looks, RoofLine start, const Options::Lines& options) -> RoofLine;
 
-/// m²: sums of some thousand squares of up to 100 m² are exact to 1e-10.
-constexpr double same_rest = 1e-9;
-
 /// Running sums: entry i is of the looks before i.
 [[nodiscard]] auto sums_along(std::span<const Look> looks) -> std::vector<geometry::LineSums>;
+
+/// What suits the looks before a place; those behind it have a line.
+enum class Before : std::uint8_t { line, level };
+
+/// Where looks may be parted.
+struct Within {
+  std::size_t fewest_before = 1, fewest_behind = 1;
+  double from = 0, to = std::numeric_limits<double>::infinity();  ///< m inward
+};
+
+/// Looks parted in two.
+struct Parting {
+  std::size_t at = 0;  ///< the first look behind the place
+  double left = 0;     ///< m²: what both leave of the squares
+};
+
+/// The parting that leaves least; none where none leaves less than `least`. `sums` along the looks, which are nearest
+/// first. Cost: O(looks).
+[[nodiscard]] auto best_parting(std::span<const Look> looks, std::span<const geometry::LineSums> sums, Before before,
+                                const Within& within, double least) -> std::optional<Parting>;
+
+/// Of the smallest detail: what is nearer than that to a plane on average is of no interest.
+constexpr double of_detail = 0.5;
 
 /// The median: looks where a level strip ends see some of the wall behind it.
 [[nodiscard]] auto middle_height(std::span<const Look> looks) -> double;

@@ -56,19 +56,13 @@ struct Step {
 auto step_in(const std::vector<Look>& looks, double most, const Options& options) -> std::optional<Step> {
   const auto sums = sums_along(looks);
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = std::max<std::size_t>(1, fewest / 3); i + fewest < looks.size() && looks[i].inward <= most;
-       ++i) {
-    if (looks[i].inward - looks[i - 1].inward <= same_distance) continue;  // rounding orders them
-    const double left = sums[i].residual_level() + (sums.back() - sums[i]).residual();
-    if (left < least - same_rest) {
-      least = left;
-      best = i;
-    }
-  }
-  if (best == 0) return std::nullopt;
-  return Step{middle_height(std::span(looks).first(best)), (looks[best - 1].inward + looks[best].inward) / 2};
+  const auto found =
+      best_parting(looks, sums, Before::level,
+                   {.fewest_before = std::max<std::size_t>(1, fewest / 3), .fewest_behind = fewest, .to = most},
+                   std::numeric_limits<double>::infinity());
+  if (!found) return std::nullopt;
+  return Step{middle_height(std::span(looks).first(found->at)),
+              (looks[found->at - 1].inward + looks[found->at].inward) / 2};
 }
 
 /// The profile with a level and a wall instead of its parts `from` to `to`.
