@@ -6,7 +6,7 @@ The program is $MANSARD, else build/release/bin/mansard. Scans and truth in OUTD
 For every preset of `mansard simulate` and every attribute: how many buildings have the number, its median absolute error and the
 median of its standard error, and the share of buildings whose truth is within one and within two standard errors (68 and 95 % where
 the standard errors are right). The truth is the planted model with the same attributes, measured of it, in truth.city.json.
-Footprints of several buildings are left out, and so are buildings with parapets, which are not reconstructed. The worst are listed with --worst N.
+Footprints of several buildings are left out, and so are buildings with parapets, which only sharp scans show. The worst are listed with --worst N.
 """
 import argparse
 import json
@@ -63,7 +63,7 @@ def main():
     ask.add_argument("--points", type=float)
     ask.add_argument("--more", nargs="+", default=[], help="options of mansard simulate, without the dashes: slope=0.3")
     ask.add_argument("--reconstruct", nargs="+", default=[], help="options of mansard reconstruct, likewise")
-    ask.add_argument("--parapets", action="store_true", help="buildings with parapets too, which are not reconstructed")
+    ask.add_argument("--parapets", action="store_true", help="buildings with parapets too, which only sharp scans show")
     ask.add_argument("--worst", type=int, default=0)
     options = ask.parse_args()
     dashed = lambda given: [part for one in given for part in ("--" + one).split("=")]

@@ -19,7 +19,7 @@ class Bends : public JudgedByScan {
   auto bent(const Plan& roof, const Plan& truth, double noise) -> detail::Judged {
     model::Accuracy accuracy;
     accuracy.noise = noise, accuracy.correlated_area = 0.1, accuracy.blur = 0, accuracy.edge_noise = noise / 5;
-    before_ = judged(roof, truth, noise, accuracy);
+    before_ = judged(roof, {truth}, noise, accuracy);
     return detail::bent(before_, *judge_);
   }
   detail::Judged before_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <vector>
 
 #include "mansard/refine/detail/judge.hpp"
 #include "mansard/refine/law.hpp"
@@ -14,9 +15,9 @@ namespace scans {
 class JudgedByScan : public testing::Test {
  protected:
   /// The first roof, by a scan of the other with that noise, measured as it is given.
-  auto judged(const Plan& roof, const Plan& truth, double noise, const model::Accuracy& accuracy)
+  auto judged(const Plan& roof, const std::vector<Plan>& truth, double noise, const model::Accuracy& accuracy)
       -> refine::detail::Judged {
-    mesh_.emplace(scan({truth}, noise));
+    mesh_.emplace(scan(truth, noise));
     options_ = refine::decided_by({}, accuracy);
     site_ = refine::detail::look(model::polygon_of(roof), ground, *mesh_, options_);
     judge_.emplace(site_, options_, raising_, run_);

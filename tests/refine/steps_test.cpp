@@ -31,7 +31,7 @@ class Steps : public JudgedByScan {
   auto judged(const Plan& roof, const Plan& truth) -> detail::Judged {
     model::Accuracy accuracy;
     accuracy.noise = 0.1, accuracy.correlated_area = 6, accuracy.blur = 0.2, accuracy.edge_noise = 0.05;
-    return JudgedByScan::judged(roof, truth, 0.02, accuracy);
+    return JudgedByScan::judged(roof, {truth}, 0.02, accuracy);
   }
 };
 

@@ -17,10 +17,6 @@ namespace {
 using model::Plan;
 using model::Profile;
 
-/// Of what is left beyond the noise. What explains less is something else on the plane, a chimney or the edge of
-/// another roof. Docs/decisions/0160-planes-that-bend.md.
-constexpr double explained = 0.75;
-
 /// Two lines that meet.
 struct Bend {
   RoofLine low, high;

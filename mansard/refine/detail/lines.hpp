@@ -54,6 +54,10 @@ struct Parting {
 [[nodiscard]] auto best_parting(std::span<const Look> looks, std::span<const geometry::LineSums> sums, Before before,
                                 const Within& within, double least) -> std::optional<Parting>;
 
+/// Of what is left beyond the noise. A parting that explains less is of something else: a chimney, the edge of another
+/// roof. Docs/decisions/0160-planes-that-bend.md.
+constexpr double explained = 0.75;
+
 /// Of the smallest detail: what is nearer than that to a plane on average is of no interest.
 constexpr double of_detail = 0.5;
 

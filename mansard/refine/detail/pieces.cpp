@@ -254,7 +254,9 @@ auto tidied(std::vector<Polygon> all, const Options::Pieces& options) -> std::ve
   return overlay;
 }
 
-auto cut(const Polygon& part, const Polygon& structure, const Options& options) -> std::vector<Polygon> {
+auto cut(const Polygon& part, const Polygon& structure, const Options& options, std::optional<double> narrowest)
+    -> std::vector<Polygon> {
+  const double width = narrowest.value_or(options.pieces.min_width);
   const auto [whole, taken] = fitted(part, structure, options.pieces);
   auto inside = geometry::intersect(whole, taken), rest = geometry::subtract(whole, taken);
   if (!inside || !rest) return {};
@@ -272,8 +274,8 @@ auto cut(const Polygon& part, const Polygon& structure, const Options& options) 
   for (const auto& piece : out) covered += geometry::area(piece);
   if (std::abs(covered - geometry::area(part)) > options.pieces.straight * around(part)) return {};
   for (const auto& piece : out)
-    if (geometry::area(piece) < options.cuts.min_area || mean_width(piece) < options.pieces.min_width ||
-        !geometry::is_simple(piece) || touches_itself(piece, options.pieces.straight))
+    if (geometry::area(piece) < options.cuts.min_area || mean_width(piece) < width || !geometry::is_simple(piece) ||
+        touches_itself(piece, options.pieces.straight))
       return {};
   return out;
 }

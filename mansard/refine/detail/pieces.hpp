@@ -22,10 +22,10 @@ namespace mansard::refine::detail {
 [[nodiscard]] auto tidied(std::vector<geometry::Polygon> overlay, const Options::Pieces& options)
     -> std::vector<geometry::Polygon>;
 
-/// The part without the structure, then the structure, largest first; empty where a piece would be too small, too
-/// narrow or not simple.
-[[nodiscard]] auto cut(const geometry::Polygon& part, const geometry::Polygon& structure, const Options& options)
-    -> std::vector<geometry::Polygon>;
+/// The part without the structure, then the structure, largest first; empty where a piece would be too small, narrower
+/// than `narrowest` (m; else Options::Pieces::min_width) or not simple.
+[[nodiscard]] auto cut(const geometry::Polygon& part, const geometry::Polygon& structure, const Options& options,
+                       std::optional<double> narrowest = {}) -> std::vector<geometry::Polygon>;
 
 /// Two parts with a common edge as one; none where that is no simple polygon.
 [[nodiscard]] auto joined(const geometry::Polygon& a, const geometry::Polygon& b, const Options& options)

@@ -21,6 +21,7 @@ struct Proposal {
   double height = 0;          ///< m, measured less model, mean over the piece
   std::string what;           ///< for the reader: "stands 2.4 m above the roof around it"
   bool whole_side = false;    ///< one straight line across the part; the piece is one side of it
+  bool rim = false;           ///< the rest is a strip around the piece
 };
 
 /// The points of a scan that consists of points, by what they lie on.

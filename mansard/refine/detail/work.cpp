@@ -11,6 +11,7 @@
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
 #include "mansard/refine/detail/refit.hpp"
+#include "mansard/refine/detail/rims.hpp"
 #include "mansard/refine/detail/sharpen.hpp"
 #include "mansard/refine/detail/tall.hpp"
 #include "mansard/refine/detail/wings.hpp"
@@ -108,6 +109,7 @@ auto Work::split(const Piece& piece) const -> std::vector<Piece> {
   if (run_.cancelled() || judge_of(piece.site).reducible(piece.roof) < least_gain) return {};
   auto proposals = cuts_of(piece, least_gain);
   std::ranges::move(wings_of(piece, least_gain), std::back_inserter(proposals));
+  std::ranges::move(within_rims(piece.site, piece.roof.view, least_gain, options_), std::back_inserter(proposals));
   return cheapest(piece, proposals, piece.roof.cost);
 }
 
@@ -292,7 +294,8 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
   std::vector<Piece> out;
   double left = worth;
   const Origin origin[]{{piece.draft, piece.roof.plan}};
-  const auto polygons = cut(piece.site.polygon, proposal.polygon, options_);
+  const double narrowest = proposal.rim ? options_.bends.min_depth : options_.pieces.min_width;
+  const auto polygons = cut(piece.site.polygon, proposal.polygon, options_, narrowest);
   double fewest = options_.part_price * (static_cast<double>(polygons.size()) - 1);
   for (const auto& polygon : polygons) fewest += cost_of_faces(polygon);
   if (fewest >= worth) return {};
@@ -307,7 +310,7 @@ auto Work::tried(const Piece& piece, const Proposal& proposal, double worth) con
     const Search search = rest ? Search::settled : Search::quick;
     auto made = roofed(piece.draft_index, std::move(site), std::move(draft), search, left);
     if (!made) return {};
-    if (!out.empty() && !proposal.whole_side && !is_of_roof(*made, options_)) return {};
+    if ((!out.empty() || proposal.rim) && !proposal.whole_side && !is_of_roof(*made, options_)) return {};
     left -= made->roof.cost + (out.empty() ? 0 : options_.part_price);
     fewest -= cost_of_faces(polygon) + (out.empty() ? 0 : options_.part_price);
     if (left - fewest <= options_.same_cost) return {};
