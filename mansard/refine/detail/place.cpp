@@ -29,6 +29,9 @@ struct FreeSide {
 /// m: a side is looked for as far as it may be wrong, and the planes beside it are read as far again beyond.
 constexpr double most_move = 1, read = 1;
 
+/// Of what is off the planes, as for the least height of a structure (law.cpp).
+constexpr double stands_clear = 10;
+
 /// m²: sums of some thousand squares of up to 9 m² are exact to 1e-11.
 constexpr double as_little = 1e-9;
 
@@ -96,6 +99,8 @@ auto move_of(std::vector<Beside> samples, double cell_area, const Options& optio
   const double noise = options.lines.robust, melt = options.samples.melt;
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   std::ranges::sort(samples, {}, [](const Beside& s) { return std::pair(s.off, s.along); });
+  if (samples.empty()) return std::nullopt;
+  const double middle = samples[samples.size() / 2].along;
   double at = 0, gain = 0;
   constexpr int rounds = 3;  // what is read clear of the side is another after it moved
   for (int round = 0; round < rounds; ++round) {
@@ -103,7 +108,13 @@ auto move_of(std::vector<Beside> samples, double cell_area, const Options& optio
     const auto inner = plane_through(samples, at + clear, at + clear + read, noise, fewest),
                outer = plane_through(samples, at - clear - read, at - clear, noise, fewest);
     if (!inner || !outer) return std::nullopt;
-    if (std::max(inner->error, outer->error) > noise) return std::nullopt;
+    if (const double error = std::max(inner->error, outer->error); error > noise) {
+      // Beside a parapet what is near the side is on no plane. Where one side stands clear of the other by more than
+      // that, what is farther from it holds.
+      if (round == 0 || std::abs(inner->plane.at(middle, at) - outer->plane.at(middle, at)) < stands_clear * error)
+        return std::nullopt;
+      break;
+    }
     // All within reach are of the outer plane up to the side, and of the inner one from there on. Samples at one
     // distance, as in a column of the grid, are on one side: rounding orders them.
     double least = 0, sum = 0, here = 0, from = -most_move;
