@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
 
 #include "fields.hpp"
 #include "mansard/refine/law.hpp"
@@ -69,6 +72,66 @@ TEST(Place, leaves_a_cut_on_the_line_of_an_edge_that_the_scan_allows) {
   const auto heights = scanned(court, step_at(4.8), {.noise = 0, .melt = 0, .turn = turn});
   EXPECT_EQ(refine::detail::placed(court, cut, heights, options_of(0.1, 0.25)).outer, cut.outer);
   EXPECT_NEAR(east_of(refine::detail::placed(court, cut, heights, options_of(0, 0))), 4.8, 0.02);
+}
+
+/// Ten points a square metre of the house, each with an error.
+struct Points {
+  std::vector<Point2> places;
+  std::vector<std::uint32_t> planes;
+  std::vector<double> heights;
+  [[nodiscard]] auto seen() const -> refine::detail::OnPlanes { return {places, planes, heights, 0.1}; }
+};
+auto measured(const Roof& roof) -> Points {
+  Points out;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> x(0, 12), y(0, 8);
+  std::normal_distribution<double> error(0, 0.03);
+  for (int i = 0; i < 960; ++i) {
+    const Point2 at{x(random), y(random)};
+    out.places.push_back(turned(at, turn));
+    out.planes.push_back(0);
+    out.heights.push_back(roof(at) + error(random));
+  }
+  return out;
+}
+auto options_of_points() -> refine::Options {
+  model::Accuracy accuracy;
+  accuracy.noise = 0.03, accuracy.correlated_area = accuracy.point_area = 0.1, accuracy.spacing = 0.316;
+  accuracy.blur = accuracy.edge_noise = 0;
+  return refine::decided_by({}, accuracy);
+}
+
+TEST(Place, is_between_the_points_of_either_side) {
+  const auto options = options_of_points();
+  const auto points = measured([](Point2 p) { return p.x < 5.1 ? 6.0 : 9.0; });
+  const auto piece = refine::detail::placed(house(), cut_at(4.6), grid_over(house(), 0.25), options, points.seen());
+  EXPECT_NEAR(east_of(piece), 5.1, 0.03);
+  EXPECT_NEAR(mansard::geometry::area(piece), 8 * 5.1, 0.24);
+}
+
+TEST(Place, turns_a_side_that_is_askew) {
+  const Roof askew = [](Point2 p) { return p.x < 5.1 + 0.03 * (p.y - 4) ? 6.0 : 9.0; };
+  const auto points = measured(askew);
+  const auto piece =
+      refine::detail::placed(house(), cut_at(4.6), grid_over(house(), 0.25), options_of_points(), points.seen());
+  EXPECT_NEAR(east_of(piece), 5.1 + 0.03 * 4, 0.04);
+  EXPECT_NEAR(mansard::geometry::area(piece), 8 * 5.1, 0.1);
+}
+
+TEST(Place, turns_no_side_by_less_than_rounded_edges_tell) {
+  const Roof askew = [](Point2 p) { return p.x < 5.1 + 0.03 * (p.y - 4) ? 6.0 : 9.0; };
+  const auto heights = scanned(house(), askew, {.noise = 0.05, .melt = 0.25, .turn = turn});
+  const auto piece = refine::detail::placed(house(), cut_at(4.6), heights, options_of(0.05, 0.25));
+  const auto way = mansard::geometry::normalised(piece.outer[2] - piece.outer[1]);
+  EXPECT_NEAR(dot(way, turned(Point2{0, 1}, turn)), 1, 1e-9);
+}
+
+TEST(Place, beside_a_parapet_is_where_the_tower_ends) {
+  const Roof tower = [](Point2 p) { return p.x > 5.4 ? 30.0 : p.x > 5.1 ? 30.7 : 6.0; };
+  const auto points = measured(tower);
+  const auto piece =
+      refine::detail::placed(house(), cut_at(5.4), grid_over(house(), 0.25), options_of_points(), points.seen());
+  EXPECT_NEAR(east_of(piece), 5.1, 0.03);
 }
 
 TEST(Place, leaves_sides_along_the_parts_outline) {

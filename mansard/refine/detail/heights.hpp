@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,14 @@ struct Heights {
     return centre(cell % columns, cell / columns);
   }
   [[nodiscard]] auto at(std::size_t column, std::size_t row) const -> double { return z[row * columns + column]; }
+};
+
+/// The points of a scan that consists of points, and what they lie on.
+struct OnPlanes {
+  std::span<const geometry::Point2> places;
+  std::span<const std::uint32_t> planes;  ///< of each: a number of a plane, or one of planes::Found
+  std::span<const double> heights{};      ///< of each; m above the base
+  double area = 0;                        ///< m²: the ground of one
 };
 
 /// Where the line of that y crosses the edge, if it does; an end counts for one of the two edges that share it.

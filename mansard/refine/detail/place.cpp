@@ -35,28 +35,37 @@ constexpr double stands_clear = 10;
 /// m²: sums of some thousand squares of up to 9 m² are exact to 1e-11.
 constexpr double as_little = 1e-9;
 
-/// Those of the part's samples whose foot is on the side, but for what is rounded: at its ends, and along the outline.
-auto samples_beside(const FreeSide& side, const Polygon& part, const Heights& grid, double rounded)
-    -> std::vector<Beside> {
-  const double trim = side.length > 4 * rounded ? rounded : 0;
-  constexpr double reach = most_move + read;
-  auto box = geometry::Box2::of(geometry::Segment2{side.start, side.start + side.length * side.along}).grown(reach);
+constexpr double beside_reach = most_move + read;
+
+/// Calls see(place, height) for what is sampled near the side.
+template <class See>
+void each_near(const FreeSide& side, const Heights& grid, const OnPlanes& points, See see) {
+  for (std::size_t i = 0; i < points.heights.size(); ++i) see(points.places[i], points.heights[i]);
+  if (!points.heights.empty()) return;
+  auto box =
+      geometry::Box2::of(geometry::Segment2{side.start, side.start + side.length * side.along}).grown(beside_reach);
   const auto index = [&](double v, double origin, std::size_t count) {
     return static_cast<std::size_t>(
         std::clamp(std::ceil((v - origin) / grid.spacing), 0.0, static_cast<double>(count)));
   };
-  std::vector<Beside> out;
   const std::size_t right = index(box.most.x, grid.origin.x, grid.columns),
                     top = index(box.most.y, grid.origin.y, grid.rows);
   for (std::size_t row = index(box.least.y, grid.origin.y, grid.rows); row < top; ++row)
-    for (std::size_t column = index(box.least.x, grid.origin.x, grid.columns); column < right; ++column) {
-      const double z = grid.at(column, row);
-      if (std::isnan(z)) continue;
-      const Point2 from = grid.centre(column, row) - side.start;
-      const double along = dot(from, side.along), off = dot(from, side.inward);
-      if (along <= trim || along >= side.length - trim || std::abs(off) >= reach) continue;
-      if (geometry::boundary_distance(part, grid.centre(column, row)) >= rounded) out.push_back({along, off, z});
-    }
+    for (std::size_t column = index(box.least.x, grid.origin.x, grid.columns); column < right; ++column)
+      if (const double z = grid.at(column, row); !std::isnan(z)) see(grid.centre(column, row), z);
+}
+
+/// Those of the part's samples whose foot is on the side, but for what is rounded: at its ends, and along the outline.
+auto samples_beside(const FreeSide& side, const Polygon& part, const Heights& grid, const OnPlanes& points,
+                    double rounded) -> std::vector<Beside> {
+  const double trim = side.length > 4 * rounded ? rounded : 0;
+  std::vector<Beside> out;
+  each_near(side, grid, points, [&](Point2 place, double z) {
+    const Point2 from = place - side.start;
+    const double along = dot(from, side.along), off = dot(from, side.inward);
+    if (along <= trim || along >= side.length - trim || std::abs(off) >= beside_reach) return;
+    if (geometry::boundary_distance(part, place) >= rounded) out.push_back({along, off, z});
+  });
   return out;
 }
 
@@ -94,17 +103,81 @@ auto plane_through(const std::vector<Beside>& samples, double from, double to, d
   return out;
 }
 
-/// How far the side is to move into the piece; nothing where that is not worth a number.
-auto move_of(std::vector<Beside> samples, double cell_area, const Options& options) -> std::optional<double> {
-  const double noise = options.lines.robust, melt = options.samples.melt;
+/// A sample beside a side, and what it costs more on the outer plane than on the inner one, m².
+struct Excess {
+  double along, off, cost;
+};
+
+/// A side moved into the piece, and turned about its middle.
+struct Moved {
+  double at = 0;     ///< m
+  double slope = 0;  ///< m per m along the side
+  double cost = 0;   ///< m²: of the samples that are outside
+};
+
+/// Samples within reach of a side are of the outer plane up to where it is, and of the inner one from there on.
+class Sides {
+ public:
+  Sides(std::vector<Excess> samples, double length) : samples_(std::move(samples)), length_(length) {}
+
+  [[nodiscard]] auto cost_at(double at) const -> double {
+    double sum = 0;
+    for (const auto& s : samples_)
+      if (s.off <= at) sum += s.cost;
+    return sum;
+  }
+
+  /// Turned by that slope, the cheapest place. Samples at one distance, as in a column of the grid, are on one side:
+  /// rounding orders them.
+  [[nodiscard]] auto best(double slope) -> std::optional<Moved> {
+    const auto off_of = [&](const Excess& s) { return s.off - slope * (s.along - length_ / 2); };
+    std::ranges::stable_sort(samples_, {}, off_of);
+    double sum = 0, from = -most_move;
+    std::optional<Moved> out;
+    for (std::size_t i = 0; i <= samples_.size() && from < most_move; ++i) {
+      const double to = i < samples_.size() ? std::clamp(off_of(samples_[i]), -most_move, most_move) : most_move;
+      if (to - from > same_distance && (!out || sum < out->cost - as_little)) out = Moved{(from + to) / 2, slope, sum};
+      from = to;
+      if (i < samples_.size()) sum += samples_[i].cost;
+    }
+    return out;
+  }
+
+  /// The same turned, where that is worth a number more. A turn that moves the ends by no more than the scan's edges
+  /// are uncertain is none.
+  [[nodiscard]] auto turned(const Moved& straight, double area, const Options& options) -> Moved {
+    constexpr double most_turn = 0.05;  // 3°: directions of walls are known better
+    constexpr double step = 0.02;       // m, at either end
+    double least = 0;
+    for (const auto& s : samples_) least += std::min(0.0, s.cost);
+    if ((straight.cost - least) * area < options.value_price) return straight;
+    Moved out = straight;
+    const int first = 1 + static_cast<int>(options.samples.blur / step),
+              last = static_cast<int>(most_turn * length_ / 2 / step);
+    for (int i = first; i <= last; ++i)
+      for (const double way : {1.0, -1.0}) {
+        const auto other = best(way * step * i / (length_ / 2));
+        if (other && other->cost < out.cost - as_little) out = *other;
+      }
+    return (straight.cost - out.cost) * area < options.value_price ? straight : out;
+  }
+
+ private:
+  std::vector<Excess> samples_;
+  double length_;
+};
+
+/// Where the side is to move in the piece; nothing where that is not worth a number.
+auto move_of(std::vector<Beside> samples, double length, double area, const Options& options) -> std::optional<Moved> {
+  const double noise = options.lines.robust, melt = options.samples.melt, middle = length / 2;
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   std::ranges::sort(samples, {}, [](const Beside& s) { return std::pair(s.off, s.along); });
-  if (samples.empty()) return std::nullopt;
-  const double middle = samples[samples.size() / 2].along;
-  double at = 0, gain = 0;
+  Moved found;
+  double gain = 0;
+  std::optional<Sides> sides;
   constexpr int rounds = 3;  // what is read clear of the side is another after it moved
   for (int round = 0; round < rounds; ++round) {
-    const double clear = round == 0 ? std::max(melt, most_move / 2) : melt;
+    const double at = found.at, clear = round == 0 ? std::max(melt, most_move / 2) : melt;
     const auto inner = plane_through(samples, at + clear, at + clear + read, noise, fewest),
                outer = plane_through(samples, at - clear - read, at - clear, noise, fewest);
     if (!inner || !outer) return std::nullopt;
@@ -115,35 +188,24 @@ auto move_of(std::vector<Beside> samples, double cell_area, const Options& optio
         return std::nullopt;
       break;
     }
-    // All within reach are of the outer plane up to the side, and of the inner one from there on. Samples at one
-    // distance, as in a column of the grid, are on one side: rounding orders them.
-    double least = 0, sum = 0, here = 0, from = -most_move;
-    std::optional<double> best;
-    for (std::size_t i = 0; i <= samples.size() && from < most_move; ++i) {
-      const double to = i < samples.size() ? std::clamp(samples[i].off, -most_move, most_move) : most_move;
-      if (to - from > same_distance) {
-        if (!best || sum < least - as_little) {
-          least = sum;
-          best = (from + to) / 2;
-        }
-        if (from <= at && at < to) here = sum;
-      }
-      from = to;
-      if (i == samples.size() || samples[i].off <= -most_move) continue;
-      const auto& s = samples[i];
+    std::vector<Excess> costs;
+    for (const auto& s : samples) {
       const auto off_plane = [&](const PlaneBeside& plane) {
         return std::min(std::abs(s.height - plane.plane.at(s.along, s.off)), options.robust);
       };
       const double in = off_plane(*inner), out = off_plane(*outer);
-      sum += out * out - in * in;
+      costs.push_back({s.along, s.off, out * out - in * in});
     }
+    sides.emplace(std::move(costs), length);
+    const auto best = sides->best(0);
     if (!best) return std::nullopt;
-    if (round == 0) gain = (here - least) * cell_area;
-    at = *best;
-    if (std::abs(at) >= most_move) return std::nullopt;
+    if (round == 0) gain = (sides->cost_at(at) - best->cost) * area;
+    found = *best;
+    if (std::abs(found.at) >= most_move) return std::nullopt;
   }
-  if (gain < options.value_price) return std::nullopt;
-  return at;
+  const Moved turned = sides->turned(found, area, options);
+  gain += (found.cost - turned.cost) * area;
+  return gain < options.value_price ? std::nullopt : std::optional(turned);
 }
 
 auto crossing_of(Point2 a, Point2 along_a, Point2 b, Point2 along_b) -> std::optional<Point2> {
@@ -180,8 +242,9 @@ auto goes_on(const Polygon& part, const FreeSide& side) -> bool {
 
 }  // namespace
 
-auto placed(const Polygon& part, Polygon piece, const Heights& measured, const Options& options) -> Polygon {
-  const double cell_area = measured.spacing * measured.spacing;
+auto placed(const Polygon& part, Polygon piece, const Heights& measured, const Options& options, const OnPlanes& points)
+    -> Polygon {
+  const double area = points.heights.empty() ? measured.spacing * measured.spacing : points.area;
   for (std::size_t i = 0; i < piece.outer.size(); ++i) {
     auto& ring = piece.outer;
     const std::size_t n = ring.size(), h = (i + n - 1) % n, j = (i + 1) % n, k = (i + 2) % n;
@@ -189,12 +252,13 @@ auto placed(const Polygon& part, Polygon piece, const Heights& measured, const O
     const Point2 along = geometry::normalised(ring[j] - ring[i]);
     FreeSide side{ring[i], along, geometry::left_of(along), length(ring[j] - ring[i])};
     if (side.length < options.cuts.min_width || !is_free(part, side, options.outlines.near_line)) continue;
-    const auto move = move_of(samples_beside(side, part, measured, options.margin), cell_area, options);
+    const auto move = move_of(samples_beside(side, part, measured, points, options.margin), side.length, area, options);
     // Walls go on in one line, but where the scan says that they do not.
-    if (!move || (std::abs(*move) <= options.margin && goes_on(part, side))) continue;
-    const Point2 on = side.start + *move * side.inward;
-    const auto a = crossing_of(on, along, ring[h], ring[i] - ring[h]),
-               b = crossing_of(on, along, ring[k], ring[j] - ring[k]);
+    if (!move || (std::abs(move->at) <= options.margin && goes_on(part, side))) continue;
+    const Point2 on = side.start + side.length / 2 * along + move->at * side.inward,
+                 way = along + move->slope * side.inward;
+    const auto a = crossing_of(on, way, ring[h], ring[i] - ring[h]),
+               b = crossing_of(on, way, ring[k], ring[j] - ring[k]);
     if (!a || !b || dot(*b - *a, along) < options.cuts.min_width) continue;
     if (length(*a - ring[i]) > 2 * most_move || length(*b - ring[j]) > 2 * most_move) continue;
     Polygon next = piece;

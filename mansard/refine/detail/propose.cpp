@@ -273,9 +273,9 @@ auto thinned(const Heights& heights, std::size_t every) -> Heights {
 
 }  // namespace
 
-auto at_steps(const Polygon& part, const Polygon& piece, const Heights& measured, const Options& options)
-    -> std::optional<Polygon> {
-  Polygon at_step = placed(part, piece, measured, options);
+auto at_steps(const Polygon& part, const Polygon& piece, const Heights& measured, const OnPlanes& points,
+              const Options& options) -> std::optional<Polygon> {
+  Polygon at_step = placed(part, piece, measured, options, points);
   // A side that was moved ends on the line of the side beside it, which may be past a corner of the part.
   if (at_step != piece) {
     auto inside = carve::pieces_in_part(part, at_step, options.pieces);
@@ -329,7 +329,7 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   }
   std::vector<Proposal> out;
   for (Cut& cut : std::move(cuts).best()) {
-    auto piece = at_steps(part, cut.polygon, measured, options);
+    auto piece = at_steps(part, cut.polygon, measured, points, options);
     if (!piece || std::ranges::any_of(out, [&](const Proposal& o) { return are_one(o.polygon, *piece); })) continue;
     std::string what = words_for(as_measured, cut, options);
     out.push_back({std::move(*piece), cut.gain, cut.errors.inside_mean, std::move(what), cut.shape == 0});

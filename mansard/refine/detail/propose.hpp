@@ -2,9 +2,7 @@
 // into it, and straight lines between two roofs. Pure geometry: what a cut is worth in full only raising can tell.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -24,16 +22,10 @@ struct Proposal {
   bool rim = false;           ///< the rest is a strip around the piece
 };
 
-/// The points of a scan that consists of points, by what they lie on.
-struct OnPlanes {
-  std::span<const geometry::Point2> places;
-  std::span<const std::uint32_t> planes;  ///< of each: a number of a plane, or one of planes::Found
-};
-
 /// A piece of a part with its free sides where the scan has them (place.hpp), without the slivers that it would leave,
 /// and with the part's own corners. None where polygon operations cannot tell the two apart, or too little is left.
 [[nodiscard]] auto at_steps(const geometry::Polygon& part, const geometry::Polygon& piece, const Heights& measured,
-                            const Options& options) -> std::optional<geometry::Polygon>;
+                            const OnPlanes& points, const Options& options) -> std::optional<geometry::Polygon>;
 
 /// The cuts worth trying, best first.
 ///   1. Every polygon lies in the part, is simple, and leaves at least `least_area` on either side.

@@ -76,7 +76,8 @@ auto within_rims(const Site& site, const View& roof, double least_gain, const Op
   const auto sums = sums_along(looks);
   const auto fewest = static_cast<std::size_t>(options.lines.min_samples);
   const double whole = sums.back().residual_level();
-  const Within within{.fewest_before = fewest, .fewest_behind = fewest, .from = options.bends.min_depth, .to = max_width};
+  const Within within{
+      .fewest_before = fewest, .fewest_behind = fewest, .from = options.bends.min_depth, .to = max_width};
   const auto found = best_parting(looks, sums, Before::level, within, whole);
   if (!found) return {};
   const double gain = whole - found->left, noise = options.samples.noise * options.samples.noise * sums.back().weight;

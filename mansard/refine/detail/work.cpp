@@ -31,6 +31,10 @@ constexpr double least_explained = 0.5;
 /// What a crown hides may be joined with what is seen beside it.
 auto may_be_known(const Piece& piece) -> bool { return !piece.site.cells.empty() || !piece.site.ceilings.empty(); }
 
+auto on_planes_of(const Site& site) -> OnPlanes {
+  return site.of_points ? OnPlanes{site.places, site.plane_of, site.z, site.sample_area} : OnPlanes{};
+}
+
 auto square_metres(const Piece& piece) -> std::string {
   return base::to_text(geometry::area(piece.site.polygon), 1) + " m²";
 }
@@ -134,7 +138,7 @@ auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> 
   const double worth = cost_of(a, b) - options_.face_price;
   std::vector<Proposal> seams;
   for (const Piece* piece : {&a, &b}) {
-    auto moved = at_steps(both.polygon, piece->site.polygon, one.site.measured, options_);
+    auto moved = at_steps(both.polygon, piece->site.polygon, one.site.measured, on_planes_of(one.site), options_);
     if (moved && moved->outer != piece->site.polygon.outer)
       seams.push_back({std::move(*moved), misfit_between(a, b), 0, "its wall where the scan has it", false});
   }
@@ -154,9 +158,7 @@ auto Work::cuts_of(const Piece& piece, double least_gain) const -> std::vector<P
   // Where the roof is above the crown that hides it, that is known.
   for (const auto& [cell, ceiling] : piece.site.ceilings)
     if (model.z[cell] > ceiling) measured.z[cell] = ceiling;
-  OnPlanes points;
-  if (piece.site.of_points) points = {piece.site.places, piece.site.plane_of};
-  return propose(piece.site.polygon, measured, model, least_gain, options_, points);
+  return propose(piece.site.polygon, measured, model, least_gain, options_, on_planes_of(piece.site));
 }
 
 auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, double worth) const
