@@ -69,7 +69,7 @@ auto samples_beside(const FreeSide& side, const Polygon& part, const Heights& gr
   return out;
 }
 
-/// z over (along, off), robustly: half of the samples may lie elsewhere, as behind a ridge.
+/// z over (along, off), robustly: half of the samples may be of something else, as behind a ridge.
 struct PlaneBeside {
   geometry::FittedPlane plane;
   double error = 0;  // m, RMS of what was kept
