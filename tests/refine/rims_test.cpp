@@ -34,7 +34,8 @@ class Rims : public JudgedByScan {
   }
   static auto of(double noise) -> model::Accuracy {
     model::Accuracy accuracy;
-    accuracy.noise = noise, accuracy.correlated_area = 0.1, accuracy.blur = 0, accuracy.edge_noise = 0.05;  // it is sampled every 0.2 m
+    accuracy.noise = noise, accuracy.correlated_area = 0.1, accuracy.blur = 0,
+    accuracy.edge_noise = 0.05;  // it is sampled every 0.2 m
     return accuracy;
   }
 };
