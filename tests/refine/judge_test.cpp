@@ -58,8 +58,9 @@ auto misfit_by_cell(const Site& site, const std::vector<double>& z, double cap, 
                row = static_cast<std::ptrdiff_t>(site.cells[i] / grid.columns);
     const double blurred = 6 * along(column, row) + 4 * (along(column, row - 1) + along(column, row + 1)) +
                            (along(column, row - 2) + along(column, row + 2));
-    sum +=
-        site.weight[i] * refine::detail::loss(site.unblurred[site.cells[i]] * blurred - grid.z[site.cells[i]], robust);
+    const double off = site.unblurred[site.cells[i]] * blurred - grid.z[site.cells[i]];
+    const double limit = off > 0 ? std::min(robust, site.limits[site.cells[i]]) : robust;
+    sum += site.weight[i] * refine::detail::loss(off, limit);
   }
   return sum * site.cell_area;
 }
@@ -72,6 +73,20 @@ TEST_F(Judging, sums_the_losses_of_the_smoothed_heights_to_the_last_bit) {
     for (const double cap : {3.0, 6.1, 100.0})
       EXPECT_EQ(judge().misfit_of(judged->view, cap), misfit_by_cell(site_, judged->view.z, cap, options_.robust));
   }
+}
+
+TEST_F(Judging, counts_what_falls_off_beside_the_outline_linearly) {
+  const auto at = [&](double fall) {
+    Site fallen = site_;
+    for (std::size_t cell = 0; cell < fallen.heights.size(); ++cell)
+      if (std::isfinite(fallen.limits[cell])) fallen.heights[cell] -= fall;
+    const Judge over{fallen, options_, raising_, run_};
+    return over(gabled(5, 0.7))->misfit;
+  };
+  const double far = at(3) - at(2);
+  EXPECT_GT(far, 0);
+  EXPECT_NEAR(at(4) - at(3), far, 1e-9) << "below the roof: linear";
+  EXPECT_GT(at(-2) - at(-1), 1.2 * (at(-1) - at(0))) << "above it: squared, as everywhere";
 }
 
 TEST_F(Judging, may_end_a_sum_that_reaches_what_is_too_much) {

@@ -1,4 +1,5 @@
 #include "mansard/refine/refine.hpp"
+#include "mansard/refine/law.hpp"
 #include "mansard/solid/solid.hpp"
 
 #include <gmock/gmock.h>
@@ -67,6 +68,20 @@ TEST(Refine, moves_both_pitches_of_a_mansard) {
   const auto parts = refined({draft}, scan({mansard_roofed()}), with(Effort::planes));
   ASSERT_EQ(parts.size(), 1U);
   EXPECT_LT(difference(parts, {mansard_roofed()}), 0.05);
+}
+
+TEST(Refine, leaves_the_strip_between_a_wall_and_a_wider_footprint_to_the_roof) {
+  // A surface between the samples of a scan from above falls from the eaves to the ground within the footprint.
+  model::Accuracy accuracy;
+  accuracy.noise = 0.015, accuracy.correlated_area = 0.15, accuracy.spacing = 0.2, accuracy.blur = 0;
+  accuracy.edge_noise = 0.1;
+  auto draft = flat_draft(rectangle(9.7, 20, 12.5, 8), 5);
+  const Profile foot{{0, 0}, {0, 3.6}, {0.3, 5}};
+  draft.alternatives.assign(4, {foot});
+  const auto flat = plan(house(), {wall(5), wall(5), wall(5), wall(5)}, 5);
+  const auto parts = refined({draft}, scan({flat}, 0.02), refine::decided_by({}, accuracy));
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_THAT(pitched_sides(parts[0].plan), ElementsAre());
 }
 
 TEST(Refine, ends_a_roof_at_the_level_the_scan_shows) {

@@ -59,6 +59,31 @@ TEST(Look, takes_the_wall_of_a_tower_where_it_is_on_average) {
   }
 }
 
+TEST(Look, pieces_know_which_of_their_margins_are_the_building_s) {
+  const auto mesh = waving_tower();
+  const refine::Options options;
+  const geometry::Polygon all{{{0, -8}, {20, -8}, {20, 8}, {0, 8}}, {}}, west{{{0, -8}, {15, -8}, {15, 8}, {0, 8}}, {}},
+      east{{{15, -8}, {20, -8}, {20, 8}, {15, 8}}, {}};
+  const auto limited = [&](const refine::detail::Site& site, const geometry::Polygon& by) {
+    std::size_t count = 0;
+    for (std::size_t cell = 0; cell < site.limits.size(); ++cell) {
+      if (std::isnan(site.measured.z[cell])) continue;
+      const bool near = geometry::boundary_distance(by, site.measured.centre(cell)) < options.margin - 1e-6;
+      EXPECT_EQ(std::isfinite(site.limits[cell]), near) << site.measured.centre(cell).x;
+      count += near ? 1 : 0;
+    }
+    return count;
+  };
+  const auto whole = refine::detail::look(all, 0, mesh, options);
+  const auto left = crop(whole, west, options), right = crop(whole, east, options);
+  EXPECT_EQ(limited(left, all) + limited(right, all), limited(whole, all));
+  EXPECT_GT(limited(right, all), 0U);
+  EXPECT_EQ(limited(merged(left, right, all, mesh, options), all), limited(whole, all));
+  limited(refine::detail::without(
+              left, [](geometry::Point2 at) { return at.x < 3; }, options),
+          all);
+}
+
 /// A scan of points over 20 m by 12 m: a flat roof of 9 m up to x = 8.1, one of 6 m beside it, the ground around them;
 /// between the points of a line 0.3 m apart no wall is seen.
 auto two_roofs(double apart = 0.3) -> rays::Scene {

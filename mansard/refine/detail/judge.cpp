@@ -27,14 +27,15 @@ auto scratch() -> Scratch& {
 
 /// The weighed losses of some cells of a row. No branches, and nothing overlaps: the compiler takes several at a time.
 void losses_of(std::size_t count, const Kernel& kernel, const std::array<const double*, 2 * blur_reach + 1>& sums,
-               const double* unblurred, const double* measured, const double* weights, double robust,
-               double* __restrict out) {
+               const double* unblurred, const double* measured, const double* weights, const double* limits,
+               double robust, double* __restrict out) {
   const auto [before_2, before, here, after, after_2] = sums;
   for (std::size_t i = 0; i < count; ++i) {
     const double shown = unblurred[i] * (kernel.here * here[i] + kernel.beside * (before[i] + after[i]) +
                                          kernel.beyond * (before_2[i] + after_2[i]));
-    const double d = std::abs(shown - measured[i]), least = std::min(d, robust);
-    out[i] = weights[i] * (least * (2 * d - least));  // loss(): d · (2 d − d) or robust · (2 d − robust)
+    const double off = shown - measured[i], d = std::abs(off);
+    const double limit = off > 0 ? std::min(limits[i], robust) : robust, least = std::min(d, limit);
+    out[i] = weights[i] * (least * (2 * d - least));  // loss(): d · (2 d − d) or limit · (2 d − limit)
   }
 }
 
@@ -61,7 +62,10 @@ auto Judge::loss_at(const View& view, std::size_t sample, double cap) const -> d
 auto Judge::reducible_at(const Judged& judged, std::size_t i) const -> double {
   const double d = judged.view.z_of(site_, i) - site_.z[i];
   if (d != d) return 0;
-  if (!site_.of_points) return site_.weight[i] * loss(d, options_.robust);
+  if (!site_.of_points) {
+    const double limit = d > 0 ? std::min(site_.limits[site_.cells[i]], options_.robust) : options_.robust;
+    return site_.weight[i] * loss(d, limit);
+  }
   const auto plane = site_.plane_of[i];
   double out = stray_loss(d, options_.samples.stray);
   if (plane < site_.planes.size())
@@ -139,7 +143,7 @@ auto Judge::misfit_of(const View& view, double cap, double most, double paid) co
     std::array<const double*, 2 * blur_reach + 1> around{};  // those of row − 4, which is as good as row + 1, … row
     for (std::size_t k = 0; k < around.size(); ++k) around[k] = &sums[(row + 1 + k) % sums.size()][blur_reach + first];
     losses_of(last - first, site_.kernel, around, &site_.unblurred[start + first], &site_.heights[start + first],
-              &site_.weights[start + first], robust, losses.data());
+              &site_.weights[start + first], &site_.limits[start + first], robust, losses.data());
     for (std::size_t i = 0; i < last - first; ++i) sum += losses[i];
     if (sum * site_.cell_area + paid >= most) return sum * site_.cell_area;
   }

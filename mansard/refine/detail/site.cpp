@@ -158,8 +158,11 @@ void add_points(Site& site, std::span<const Measured> points, const Options& opt
   std::ranges::sort(site.sorted);
 }
 
+/// Of the cells of a part's margin, those that are in the building's.
+using OfBuilding = std::function<bool(std::size_t cell)>;
+
 /// Samples the surface, and weighs the samples.
-void finish(Site& site, const Options& options) {
+void finish(Site& site, const Options& options, const OfBuilding& of_building) {
   const auto& grid = site.measured;
   site.sample_area = site.cell_area;
   const auto margin = cells_near(site.polygon, options.margin, grid);
@@ -171,6 +174,7 @@ void finish(Site& site, const Options& options) {
   site.z.reserve(count);
   site.heights.assign(grid.z.size(), 0);
   site.weights.assign(grid.z.size(), 0);
+  site.limits.assign(grid.z.size(), std::numeric_limits<double>::infinity());
   site.extents.assign(grid.rows, {0, 0});
   for (std::size_t row = 0, cell = 0; row < grid.rows; ++row)
     for (std::size_t column = 0; column < grid.columns; ++column, ++cell) {
@@ -183,6 +187,7 @@ void finish(Site& site, const Options& options) {
       site.z.push_back(grid.z[cell]);
       site.heights[cell] = grid.z[cell];
       site.weights[cell] = weight;
+      if (margin[cell] != 0 && of_building(cell)) site.limits[cell] = options.cuts.min_step;
       auto& [first, last] = site.extents[row];
       if (last == 0) first = column;
       last = column + 1;
@@ -264,7 +269,7 @@ auto look(const Polygon& polygon, double base, const rays::Scene& mesh, const Op
     const auto z = at_rim ? points->height_at(centre, polygon) : height_at(centre, base, mesh, points);
     if (z) grid.z[cell] = *z - base;
   });
-  if (points == nullptr) finish(site, options);
+  if (points == nullptr) finish(site, options, [](std::size_t) { return true; });
   else add_points(site, measured_over(polygon, base, *points), options);
   if (points != nullptr) site.planes = points->planes();
   return site;
@@ -279,6 +284,14 @@ auto points_of(const Site& site) -> std::vector<Measured> {
   return out;
 }
 
+/// The cells of a grid that are in the margin of the building over another site.
+auto in_margin_of(const Site& site, const Cells& cells, const Heights& grid) -> OfBuilding {
+  return [&site, &cells, columns = grid.columns](std::size_t cell) {
+    const auto other = cells.of(cell % columns, cell / columns);
+    return other && std::isfinite(site.limits[*other]);
+  };
+}
+
 }  // namespace
 
 auto crop(const Site& site, const Polygon& piece, const Options& options) -> Site {
@@ -290,7 +303,7 @@ auto crop(const Site& site, const Polygon& piece, const Options& options) -> Sit
   });
   out.planes = site.planes;
   if (site.of_points) add_points(out, points_of(site), options);
-  else finish(out, options);
+  else finish(out, options, in_margin_of(site, cells, grid));
   return out;
 }
 
@@ -308,7 +321,8 @@ auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene
     if (!std::isnan(z)) return;
     if (const auto top = height_at(grid.centre(column, row), a.base, mesh, points)) z = *top - a.base;
   });
-  if (points == nullptr) finish(out, options);
+  const auto of_a = in_margin_of(a, in_a, grid), of_b = in_margin_of(b, in_b, grid);
+  if (points == nullptr) finish(out, options, [&](std::size_t cell) { return of_a(cell) || of_b(cell); });
   else add_points(out, measured_over(both, a.base, *points), options);
   out.planes = a.planes;
   return out;
@@ -320,7 +334,7 @@ auto without(const Site& site, const std::function<bool(Point2)>& taken, const O
   for (std::size_t cell = 0; cell < out.measured.z.size(); ++cell)
     if (double& z = out.measured.z[cell]; !std::isnan(z) && taken(out.measured.centre(cell))) z = unseen;
   if (!site.of_points) {
-    finish(out, options);
+    finish(out, options, [&](std::size_t cell) { return std::isfinite(site.limits[cell]); });
     return out;
   }
   out.planes = site.planes;
@@ -332,7 +346,7 @@ auto without(const Site& site, const std::function<bool(Point2)>& taken, const O
 
 auto without_cells(const Site& site, const Options& options) -> Site {
   Site out = unseen_over(site.polygon, site.base, site.measured.spacing);
-  finish(out, options);
+  finish(out, options, [](std::size_t) { return false; });
   out.of_points = site.of_points;
   return out;
 }
