@@ -1,4 +1,5 @@
 #include "mansard/align/align.hpp"
+#include "mansard/geometry/edges.hpp"
 
 #include <algorithm>
 #include <array>
@@ -152,14 +153,9 @@ auto outlines_of(std::span<const geometry::Polygon> footprints, double cell) -> 
     for (std::size_t r = 0; r < own.rows; ++r) {
       const double y = (static_cast<double>(own.row) + static_cast<double>(r) + 0.5) * cell;
       crossings.clear();
-      const auto cross = [&](const geometry::Ring& ring) {
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-          const auto p = ring[i], q = ring[(i + 1) % ring.size()];
-          if ((p.y <= y) != (q.y <= y)) crossings.push_back(p.x + (y - p.y) / (q.y - p.y) * (q.x - p.x));
-        }
-      };
-      cross(polygon.outer);
-      for (const auto& hole : polygon.holes) cross(hole);
+      geometry::each_edge(polygon, [&](geometry::Point2 p, geometry::Point2 q) {
+        if ((p.y <= y) != (q.y <= y)) crossings.push_back(p.x + (y - p.y) / (q.y - p.y) * (q.x - p.x));
+      });
       std::ranges::sort(crossings);
       const auto row = static_cast<std::size_t>(own.row + static_cast<std::int64_t>(r) - grid.row);
       for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {

@@ -5,6 +5,7 @@
 #include "mansard/evaluate/detail/plan_of_face.hpp"
 #include "mansard/evaluate/detail/shared_boundary.hpp"
 #include "mansard/evaluate/truth.hpp"
+#include "mansard/geometry/edges.hpp"
 
 namespace mansard::evaluate {
 namespace {
@@ -92,13 +93,8 @@ auto pairs_of(std::span<const Outline> truth, std::span<const Outline> model, co
 
 auto detail::edges_of(const Outline& outline) -> std::vector<Segment2> {
   std::vector<Segment2> edges;
-  const auto add = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
-  };
-  for (const auto& polygon : outline) {
-    add(polygon.outer);
-    for (const auto& hole : polygon.holes) add(hole);
-  }
+  for (const auto& polygon : outline)
+    geometry::each_edge(polygon, [&](auto from, auto to) { edges.push_back({from, to}); });
   return edges;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mansard/geometry/edges.hpp"
 #include "mansard/geometry/predicates.hpp"
 
 namespace mansard::geometry {
@@ -77,12 +78,7 @@ auto distance(const Segment2& segment, Point2 p) -> double {
 
 auto boundary_distance(const Polygon& polygon, Point2 p) -> double {
   double least = std::numeric_limits<double>::infinity();
-  const auto look = [&](const Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      least = std::min(least, distance({ring[i], ring[(i + 1) % ring.size()]}, p));
-  };
-  look(polygon.outer);
-  for (const auto& hole : polygon.holes) look(hole);
+  each_edge(polygon, [&](Point2 from, Point2 to) { least = std::min(least, distance({from, to}, p)); });
   return least;
 }
 

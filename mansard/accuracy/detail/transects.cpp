@@ -8,6 +8,7 @@
 
 #include "mansard/base/run.hpp"
 #include "mansard/base/statistics.hpp"
+#include "mansard/geometry/edges.hpp"
 #include "mansard/geometry/fit.hpp"
 
 namespace mansard::accuracy::detail {
@@ -181,16 +182,10 @@ auto across(std::span<const geometry::Polygon> outline, const geometry::Mesh& me
   };
   std::vector<geometry::Segment2> edges;
   double all = 0;
-  const auto add = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const geometry::Segment2 edge{ring[i], ring[(i + 1) % ring.size()]};
-      if (const double l = length(edge.end - edge.start); l >= least_edge) edges.push_back(edge), all += l;
-    }
-  };
-  for (const auto& polygon : outline) {
-    add(polygon.outer);
-    for (const auto& hole : polygon.holes) add(hole);
-  }
+  for (const auto& polygon : outline)
+    geometry::each_edge(polygon, [&](Point2 a, Point2 b) {
+      if (const double l = length(b - a); l >= least_edge) edges.push_back({a, b}), all += l;
+    });
   std::ranges::sort(edges);
   const double apart = std::max(spacing, all / most_transects);
   std::vector<Place> places;

@@ -1,4 +1,5 @@
 #include "mansard/evaluate/detail/grid.hpp"
+#include "mansard/geometry/edges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,14 +27,9 @@ auto Cover::row(const Grid& grid, std::int64_t j) const -> std::vector<bool> {
   for (std::size_t p = 0; p < polygons_.size(); ++p) {
     if (boxes_[p].least.y > y || boxes_[p].most.y < y) continue;
     crossings.clear();
-    const auto look = [&](const geometry::Ring& ring) {
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const auto a = ring[i], b = ring[(i + 1) % ring.size()];
-        if ((a.y <= y) != (b.y <= y)) crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
-      }
-    };
-    look(polygons_[p].outer);
-    for (const auto& hole : polygons_[p].holes) look(hole);
+    geometry::each_edge(polygons_[p], [&](auto a, auto b) {
+      if ((a.y <= y) != (b.y <= y)) crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+    });
     std::ranges::sort(crossings);
     for (std::size_t c = 0; c + 1 < crossings.size(); c += 2) {
       const auto cell = [&](double x) {

@@ -1,4 +1,5 @@
 #include "mansard/evaluate/detail/strip.hpp"
+#include "mansard/geometry/edges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,20 +10,14 @@ namespace {
 /// m; half of what two footprints that touch may lie apart, as where footprints are grouped into blocks.
 constexpr double half_touch = 0.05;
 
-void add(const geometry::Ring& ring, std::vector<geometry::Segment2>& boundary) {
-  for (std::size_t i = 0; i < ring.size(); ++i) boundary.push_back({ring[i], ring[(i + 1) % ring.size()]});
-}
-
 }  // namespace
 
 auto Strip::along_each(std::span<const geometry::Polygon> polygons, double width) -> Strip {
   Strip strip;
   strip.width_ = width;
   if (!(width > 0)) return strip;
-  for (const auto& polygon : polygons) {
-    add(polygon.outer, strip.boundary_);
-    for (const auto& hole : polygon.holes) add(hole, strip.boundary_);
-  }
+  for (const auto& polygon : polygons)
+    geometry::each_edge(polygon, [&](auto from, auto to) { strip.boundary_.push_back({from, to}); });
   return strip;
 }
 

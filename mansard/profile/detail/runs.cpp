@@ -1,6 +1,7 @@
 #include "mansard/profile/detail/runs.hpp"
 #include "mansard/geometry/angles.hpp"
 #include "mansard/geometry/arcs.hpp"
+#include "mansard/geometry/edges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,18 +43,14 @@ auto reach_of(const Polygon& polygon, Point2 foot, Point2 inward) -> double {
   constexpr double own_edge = 1e-3;  // m
   const Point2 across = geometry::left_of(inward);
   double least = std::numeric_limits<double>::infinity();
-  const auto look = [&](const Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point2 a = ring[i] - foot, b = ring[(i + 1) % ring.size()] - foot;
-      const double da = dot(a, across), db = dot(b, across);
-      if ((da >= 0) == (db >= 0)) continue;
-      const double t = da / (da - db);
-      const double u = dot(a, inward) + t * (dot(b, inward) - dot(a, inward));
-      if (u > own_edge) least = std::min(least, u);
-    }
-  };
-  look(polygon.outer);
-  for (const auto& hole : polygon.holes) look(hole);
+  geometry::each_edge(polygon, [&](Point2 from, Point2 to) {
+    const Point2 a = from - foot, b = to - foot;
+    const double da = dot(a, across), db = dot(b, across);
+    if ((da >= 0) == (db >= 0)) return;
+    const double t = da / (da - db);
+    const double u = dot(a, inward) + t * (dot(b, inward) - dot(a, inward));
+    if (u > own_edge) least = std::min(least, u);
+  });
   return std::isfinite(least) ? least : 0;
 }
 

@@ -1,5 +1,6 @@
 #include "mansard/refine/detail/propose_raster.hpp"
 #include "mansard/geometry/angles.hpp"
+#include "mansard/geometry/edges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,15 +29,6 @@ auto mapped(const Polygon& polygon, Map map) -> Polygon {
   return out;
 }
 
-template <class Visit>
-void for_each_edge(const Polygon& polygon, Visit visit) {
-  const auto along = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
-  };
-  along(polygon.outer);
-  for (const auto& hole : polygon.holes) along(hole);
-}
-
 /// Calls visit(row, first, last) for the runs of cells with their centres in the polygon.
 template <class Visit>
 void for_each_run(const Polygon& polygon, const Raster& raster, Visit visit) {
@@ -49,7 +41,7 @@ void for_each_run(const Polygon& polygon, const Raster& raster, Visit visit) {
   for (int row = from; row <= to; ++row) {
     const double y = raster.y(row);
     crossings.clear();
-    for_each_edge(polygon, [&](Point2 a, Point2 b) {
+    geometry::each_edge(polygon, [&](Point2 a, Point2 b) {
       if ((a.y <= y) != (b.y <= y)) crossings.push_back(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
     });
     std::ranges::sort(crossings);
@@ -176,7 +168,7 @@ auto directions_of(const Polygon& part, const Options::Directions& options) -> s
   };
   std::vector<Way> ways;
   double total = 0;
-  for_each_edge(part, [&](Point2 a, Point2 b) {
+  geometry::each_edge(part, [&](Point2 a, Point2 b) {
     const double l = length(b - a);
     if (l <= 0) return;
     ways.push_back({angle_of(b - a), l});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mansard/base/text.hpp"
+#include "mansard/geometry/edges.hpp"
 #include "mansard/refine/detail/lines.hpp"
 
 namespace mansard::refine::detail {
@@ -24,11 +25,7 @@ struct Along {
 
 auto edges_of(const geometry::Polygon& polygon) -> std::vector<Along> {
   std::vector<Along> out;
-  const auto add = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) out.push_back({{ring[i], ring[(i + 1) % ring.size()]}, {}});
-  };
-  add(polygon.outer);
-  std::ranges::for_each(polygon.holes, add);
+  geometry::each_edge(polygon, [&](geometry::Point2 a, geometry::Point2 b) { out.push_back({{a, b}, {}}); });
   return out;
 }
 

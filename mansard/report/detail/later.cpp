@@ -1,4 +1,5 @@
 #include "mansard/report/detail/later.hpp"
+#include "mansard/geometry/edges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,14 +31,11 @@ void each_cell(const geometry::Box2& box, See see) {
 
 FinalWalls::FinalWalls(std::span<const model::Building> buildings) {
   std::size_t part = 0;
-  const auto add = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) edges_.push_back({{ring[i], ring[(i + 1) % ring.size()]}, part});
-  };
   for (const auto& building : buildings)
     for (const auto& one : building.parts) {
-      const auto polygon = model::polygon_of(one.plan);
-      add(polygon.outer);
-      for (const auto& hole : polygon.holes) add(hole);
+      geometry::each_edge(model::polygon_of(one.plan), [&](auto from, auto to) {
+        edges_.push_back({{from, to}, part});
+      });
       ++part;
     }
   for (std::size_t i = 0; i < edges_.size(); ++i)

@@ -10,6 +10,7 @@
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/geometry/arcs.hpp"
+#include "mansard/geometry/edges.hpp"
 #include "mansard/geometry/fit.hpp"
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
@@ -27,14 +28,10 @@ auto span(const Segment2& s) -> double { return length(s.end - s.start); }
 
 /// The edges of polygons, turned so that outside is on the left, as with sweep-edges.
 void add_edges(const geometry::Polygon& polygon, Point2 shift, std::vector<Segment2>& edges) {
-  const auto add = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Segment2 s{ring[(i + 1) % ring.size()] + shift, ring[i] + shift};
-      if (span(s) > 0) edges.push_back(s);
-    }
-  };
-  add(polygon.outer);
-  for (const auto& hole : polygon.holes) add(hole);
+  geometry::each_edge(polygon, [&](Point2 from, Point2 to) {
+    const Segment2 s{to + shift, from + shift};
+    if (span(s) > 0) edges.push_back(s);
+  });
 }
 
 /// A sweep-edge beside an edge of the outline.

@@ -10,6 +10,7 @@
 
 #include "mansard/base/statistics.hpp"
 #include "mansard/geometry/change.hpp"
+#include "mansard/geometry/edges.hpp"
 #include "mansard/geometry/fit.hpp"
 #include "mansard/sweep/detail/line_index.hpp"
 #include "mansard/sweep/detail/steps_field.hpp"
@@ -281,14 +282,9 @@ class Lines {
 
 auto outlines_of(const block::Block& block) -> std::vector<Segment2> {
   std::vector<Segment2> lines;
-  const auto add = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) lines.push_back({ring[i], ring[(i + 1) % ring.size()]});
-  };
   for (const auto& member : block.members)
-    for (const auto& polygon : member.polygons) {
-      add(polygon.outer);
-      for (const auto& hole : polygon.holes) add(hole);
-    }
+    for (const auto& polygon : member.polygons)
+      geometry::each_edge(polygon, [&](Point2 from, Point2 to) { lines.push_back({from, to}); });
   return lines;
 }
 

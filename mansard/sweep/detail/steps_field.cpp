@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mansard/geometry/angles.hpp"
+#include "mansard/geometry/edges.hpp"
 #include "mansard/geometry/polygon.hpp"
 
 namespace mansard::sweep::detail {
@@ -35,19 +36,14 @@ auto quarter_turned(double a, double b) -> double { return std::remainder(a - b,
 auto edges_of(const block::Block& block, const Options& o) -> std::vector<Edge> {
   std::vector<Edge> edges;
   for (std::size_t m = 0; m < block.members.size(); ++m) {
-    const auto add = [&](const geometry::Ring& ring) {
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Point2 d = ring[(i + 1) % ring.size()] - ring[i];
+    for (const auto& polygon : block.members[m].polygons)
+      geometry::each_edge(polygon, [&](Point2 from, Point2 to) {
+        const Point2 d = to - from;
         const double size = length(d);
-        if (size < o.step_grain_edge) continue;
+        if (size < o.step_grain_edge) return;
         const double turned = std::fmod(geometry::arc_tangent(d.y, d.x) + 2 * std::numbers::pi, std::numbers::pi / 2);
         edges.push_back({turned, size, m});
-      }
-    };
-    for (const auto& polygon : block.members[m].polygons) {
-      add(polygon.outer);
-      for (const auto& hole : polygon.holes) add(hole);
-    }
+      });
   }
   std::ranges::sort(edges, [](const Edge& a, const Edge& b) {
     if (a.length != b.length) return a.length > b.length;
