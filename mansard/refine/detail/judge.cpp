@@ -34,7 +34,7 @@ void losses_of(std::size_t count, const Kernel& kernel, const std::array<const d
     const double shown = unblurred[i] * (kernel.here * here[i] + kernel.beside * (before[i] + after[i]) +
                                          kernel.beyond * (before_2[i] + after_2[i]));
     const double off = shown - measured[i], d = std::abs(off);
-    const double limit = off > 0 ? std::min(limits[i], robust) : robust, least = std::min(d, limit);
+    const double least = std::min(d, limit_of(off, limits[i], robust));
     out[i] = weights[i] * (least * (2 * d - least));  // loss(): d · (2 d − d) or limit · (2 d − limit)
   }
 }
@@ -62,10 +62,7 @@ auto Judge::loss_at(const View& view, std::size_t sample, double cap) const -> d
 auto Judge::reducible_at(const Judged& judged, std::size_t i) const -> double {
   const double d = judged.view.z_of(site_, i) - site_.z[i];
   if (d != d) return 0;
-  if (!site_.of_points) {
-    const double limit = d > 0 ? std::min(site_.limits[site_.cells[i]], options_.robust) : options_.robust;
-    return site_.weight[i] * loss(d, limit);
-  }
+  if (!site_.of_points) return site_.weight[i] * loss(d, limit_of(d, site_.limits[site_.cells[i]], options_.robust));
   const auto plane = site_.plane_of[i];
   double out = stray_loss(d, options_.samples.stray);
   if (plane < site_.planes.size())

@@ -22,6 +22,12 @@ namespace mansard::refine::detail {
   return d <= robust ? d * d : robust * (2 * d - robust);
 }
 
+/// m: up to where a difference counts squared. Beside the outline of a building (`beside`, of Site::limits) the scan
+/// falls to the ground, so that less of what a roof is above it does.
+[[nodiscard]] inline auto limit_of(double above, double beside, double robust) -> double {
+  return above > 0 ? std::min(beside, robust) : robust;
+}
+
 /// Squared up to `stray`, and the same beyond: a point that is farther off is of something else, a plant, a wire, the
 /// ground in a gap, and no roof suits it better for coming a little nearer (P. Huber and E. Ronchetti, Robust
 /// Statistics, 2009, section 4.8: redescending estimates).

@@ -40,8 +40,8 @@ struct Site {
   std::vector<double> unblurred;
   /// Of a surface, the same as `z` and `weight` for sums over whole rows: per cell of the grid, 0 where there is none.
   std::vector<double> heights, weights;
-  /// The same, m: what a roof is above the scan by more than that counts linearly. Infinite but beside the outline of
-  /// the building.
+  /// The same, m: what a roof is above the scan by more than that counts linearly. Infinite but in the margin of the
+  /// outline that was looked at first: not along cuts.
   std::vector<double> limits;
   /// Per row of the grid the columns [first, last) from its first cell with a height to its last.
   std::vector<std::pair<std::size_t, std::size_t>> extents;
