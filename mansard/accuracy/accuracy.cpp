@@ -19,6 +19,7 @@ constexpr double finest = 0.5;  // m between places
 /// m: in smaller discs, the noise of points that were matched is one error, and looks like none.
 constexpr double least_of_points = 1;
 constexpr double least_noise = 1e-3;  // m: of less no scan was measured
+constexpr double upright = 1e-6;      // cosine from above of what is an exact wall, with rounding
 constexpr double coarse = 0.6;        // m: of a mesh whose vertices are farther apart, few discs hold one roof alone
 
 /// Three digits: what a logarithm's last bit says is not that of another processor.
@@ -95,9 +96,13 @@ auto places_on(const detail::Cells& samples) -> std::vector<Point2> {
   return out;
 }
 
+/// Where noise is one error over very many points, the plane through a point and its neighbours shows the noise rather
+/// than the roof: a point is no measurement of its own.
 void put_noise_of_points(const detail::Cells& points, std::span<const Point2> places, double ground,
                          model::Accuracy& out) {
+  constexpr double most_points = 50;  // four dozen neighbours
   put_noise(detail::noise_from(points.residuals(places, ground, least_of_points), ground), out);
+  if (out.windows > 0 && out.correlated_area < most_points * ground) out.point_area = ground;
 }
 
 /// A coarse mesh has its vertices where it bends, so that most discs over a small roof hold several of its faces.
@@ -118,15 +123,45 @@ void put_noise(const geometry::Mesh& mesh, const detail::Cells& samples, std::sp
                const std::function<bool(Point2)>& seen, model::Accuracy& out) {
   if (places.empty()) return;
   const double ground = put_spacing(samples, places, out);
-  if (mesh.points.empty()) return put_noise_of_surface(mesh, samples, places, ground, seen, out);
-  put_noise_of_points(samples, places, ground, out);
-  // Where noise is one error over so many points, the plane through a point and its neighbours shows the noise rather
-  // than the roof: a point is no measurement of its own.
-  constexpr double most_points = 50;  // four dozen neighbours
-  if (out.windows > 0 && out.correlated_area < most_points * ground) out.point_area = ground;
+  if (mesh.points.empty()) put_noise_of_surface(mesh, samples, places, ground, seen, out);
+  else put_noise_of_points(samples, places, ground, out);
+}
+
+/// Whether the vertices of a surface are what was measured, and its triangles only what was drawn between them: every
+/// vertical line meets it once; vertices are as dense everywhere, so that none were left out or put where it bends;
+/// each has an error of its own; and edges are no rounder than triangles between a roof and the ground are.
+auto vertices_are_points(const geometry::Mesh& mesh, const model::Accuracy& scan) -> bool {
+  constexpr double of_own = 2;      // vertices over which noise is one error
+  constexpr double sharp = 0.8;     // spacings: triangles between roof and ground have a blur of 0.3 to 0.75
+  constexpr double one_way = 0.99;  // of the triangles: where tiles meet some may overlap
+  constexpr double even = 4;        // of Delaunay triangles of random points half of the ground is in those of 1.6
+  if (!mesh.points.empty() || scan.windows == 0 || mesh.triangles.empty()) return false;
+  if (scan.correlated_area > of_own * scan.spacing * scan.spacing || scan.blur > sharp * scan.spacing) return false;
+  std::vector<double> areas;
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const Point3 a = mesh.vertices[t[0]];
+    const Point3 across = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
+    if (!(across.z > upright * length(across))) continue;
+    areas.push_back(across.z / 2);
+    sum += across.z / 2;
+  }
+  const auto count = static_cast<double>(areas.size());
+  if (count < one_way * static_cast<double>(mesh.triangles.size())) return false;
+  double large = 0;
+  for (const double area : areas)
+    if (area > even * sum / count) large += area;
+  return 2 * large < sum;
 }
 
 void put(const std::optional<double>& given, double& to) { to = given.value_or(to); }
+
+void put_given(const Options& o, model::Accuracy& out) {
+  put(o.noise, out.noise);
+  put(o.correlated_area, out.correlated_area);
+  put(o.spacing, out.spacing);
+  if (out.point_area > 0) out.point_area = rounded(out.spacing * out.spacing);
+}
 
 }  // namespace
 
@@ -138,10 +173,7 @@ auto measure_noise(const geometry::Mesh& mesh, std::span<const geometry::Polygon
     put_noise(
         mesh, samples_of(mesh), places, [&](Point2 at) { return is_near(outline, at); }, out);
   }
-  put(o.noise, out.noise);
-  put(o.correlated_area, out.correlated_area);
-  put(o.spacing, out.spacing);
-  if (out.point_area > 0) out.point_area = rounded(out.spacing * out.spacing);
+  put_given(o, out);
   return out;
 }
 
@@ -176,6 +208,7 @@ auto with_edges(model::Accuracy out, const geometry::Mesh& mesh, const rays::Sce
   put(o.offset_x, out.offset.x);
   put(o.offset_y, out.offset.y);
   put(o.offset_spread, out.offset_spread);
+  if (vertices_are_points(mesh, out)) out.point_area = rounded(out.spacing * out.spacing);
   return out;
 }
 

@@ -363,6 +363,18 @@ auto Scene::points_in(const geometry::Box2& box) const -> std::vector<Point3> {
 
 auto Scene::has_points() const -> bool { return !parts_->mesh.points.empty(); }
 
+void Scene::take_vertices_as_points() {
+  auto& mesh = parts_->mesh;
+  std::vector<char> hidden(mesh.vertices.size(), 0);
+  for (const auto t : parts_->hiding)
+    for (const auto v : mesh.triangles[t]) hidden[v] = 1;
+  mesh.points.clear();
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (hidden[v] == 0) mesh.points.push_back(mesh.vertices[v]);
+  std::ranges::sort(mesh.points);
+  mesh.points.erase(std::unique(mesh.points.begin(), mesh.points.end()), mesh.points.end());
+}
+
 auto Scene::nearest(Point3 to, double within) const -> std::optional<Nearest> { return nearest(to, within, {}); }
 
 auto Scene::nearest(Point3 to, double within, const Extra& extra) const -> std::optional<Nearest> {

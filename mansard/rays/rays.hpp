@@ -75,6 +75,9 @@ class Scene {
   /// those above or below triangles that hide. Cost: O(log n + points between the box's x).
   [[nodiscard]] auto points_in(const geometry::Box2& box) const -> std::vector<geometry::Point3>;
   [[nodiscard]] auto has_points() const -> bool;
+  /// From now on its points are the vertices of its mesh, but for those of triangles that hide. Of a mesh without
+  /// points; before anything is looked up.
+  void take_vertices_as_points();
 
   /// The nearest place of the mesh within so many metres, of any triangle. Of two as near (to the last bit) that of the
   /// lower triangle.

@@ -1,6 +1,7 @@
 // What was planted in simulated scans is measured: a table of all combinations.
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -211,6 +212,59 @@ TEST(Accuracy, does_not_depend_on_order_or_frame) {  // guarantee 1
     EXPECT_EQ(other.edge_noise, found.edge_noise);
     EXPECT_EQ(other.walls, found.walls);
   }
+}
+
+/// Every height the mean of those around it, three times, with an error of its own after that.
+auto rounded(geometry::Mesh mesh, double noise) -> geometry::Mesh {
+  for (int round = 0; round < 3; ++round) {
+    std::vector<double> sum(mesh.vertices.size(), 0), count(mesh.vertices.size(), 0);
+    for (const auto& t : mesh.triangles)
+      for (const auto v : t)
+        for (const auto w : t) sum[v] += mesh.vertices[w].z, count[v] += 1;
+    for (std::size_t v = 0; v < sum.size(); ++v) mesh.vertices[v].z = sum[v] / std::max(1.0, count[v]);
+  }
+  std::mt19937 random(7);
+  std::normal_distribution<double> error(0, noise);
+  for (auto& v : mesh.vertices) v.z += error(random);
+  return mesh;
+}
+
+/// In one half, one vertex of many.
+auto without_some(geometry::Mesh mesh, double from) -> geometry::Mesh {
+  constexpr double wide = 4;  // m
+  std::map<std::pair<double, double>, std::uint32_t> kept;
+  std::vector<std::uint32_t> now(mesh.vertices.size());
+  for (std::uint32_t v = 0; v < now.size(); ++v) {
+    const auto p = mesh.vertices[v];
+    now[v] = p.x < from ? v : kept.try_emplace({std::floor(p.x / wide), std::floor(p.y / wide)}, v).first->second;
+  }
+  for (auto& t : mesh.triangles)
+    for (auto& v : t) v = now[v];
+  std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  return mesh;
+}
+
+TEST(Accuracy, takes_the_vertices_of_a_height_field_for_points_where_each_has_an_error_of_its_own) {
+  const auto truth = town();
+  const auto outline = outlines_of(truth);
+  const auto point_area = [&](const geometry::Mesh& mesh) {
+    return measure(mesh, rays::Scene(mesh), outline).point_area;
+  };
+  for (const double spacing : {0.3, 0.5, 1.0}) {
+    auto field = nothing_but(0.03, 0, spacing, 0);
+    field.height_field = true;
+    const auto scan = test::scanned(truth, field);
+    EXPECT_NEAR(point_area(scan.mesh), spacing * spacing, 0.5 * spacing * spacing) << spacing;
+    if (spacing < 1) {  // what is rounded over more than two metres is not seen as an edge
+      EXPECT_EQ(point_area(rounded(scan.mesh, 0.03)), 0) << spacing;
+    }
+    EXPECT_EQ(point_area(without_some(scan.mesh, 40)), 0) << spacing;  // placed where it bends
+  }
+  auto correlated = nothing_but(0.03, 3, 0.3, 0);
+  correlated.height_field = true;
+  EXPECT_EQ(point_area(test::scanned(truth, correlated).mesh), 0);
+  EXPECT_EQ(point_area(test::scanned(truth, nothing_but(0.03, 0, 0.3, 0)).mesh), 0);  // with walls
+  EXPECT_EQ(point_area(test::scanned(truth, exact()).mesh), 0);
 }
 
 /// A box whose footprint is drawn 0.2 m too far on one side: an offset and a common distance suit three walls of four.

@@ -29,6 +29,12 @@ class Shown {
   Shown(const Shown&) = delete;
   auto operator=(const Shown&) -> Shown& = delete;
 
+  /// Vertices are the points of its scenes from now on.
+  void take_vertices_as_points() {
+    mesh_->take_vertices_as_points();
+    if (whole_) whole_->take_vertices_as_points();
+  }
+
   /// With the walls below crowns, for slices.
   [[nodiscard]] auto block() const -> const block::Block& { return cleared_ ? *cleared_ : whole_block_; }
   /// Seen from above: nothing where a crown is, also not the large triangles of a coarse mesh that reach below it.
@@ -75,10 +81,11 @@ class Shown {
   report.accuracy = stage("accuracy", tell, report,
                           [&] { return accuracy::measure_noise(block.mesh, block.outline, options.accuracy); });
   const auto crowns = crowns_over(block, options, run, tell, report, warnings);
-  auto shown = std::make_unique<const Shown>(block, std::move(whole), crowns);
+  auto shown = std::make_unique<Shown>(block, std::move(whole), crowns);
   report.accuracy = stage("accuracy", tell, report, [&] {
     return accuracy::with_edges(report.accuracy, shown->block().mesh, shown->mesh(), block.outline, options.accuracy);
   });
+  if (report.accuracy.point_area > 0 && block.mesh.points.empty()) shown->take_vertices_as_points();
   return shown;
 }
 
