@@ -156,13 +156,6 @@ auto vertices_are_points(const geometry::Mesh& mesh, const model::Accuracy& scan
 
 void put(const std::optional<double>& given, double& to) { to = given.value_or(to); }
 
-void put_given(const Options& o, model::Accuracy& out) {
-  put(o.noise, out.noise);
-  put(o.correlated_area, out.correlated_area);
-  put(o.spacing, out.spacing);
-  if (out.point_area > 0) out.point_area = rounded(out.spacing * out.spacing);
-}
-
 }  // namespace
 
 auto measure_noise(const geometry::Mesh& mesh, std::span<const geometry::Polygon> outline, const Options& o)
@@ -173,7 +166,10 @@ auto measure_noise(const geometry::Mesh& mesh, std::span<const geometry::Polygon
     put_noise(
         mesh, samples_of(mesh), places, [&](Point2 at) { return is_near(outline, at); }, out);
   }
-  put_given(o, out);
+  put(o.noise, out.noise);
+  put(o.correlated_area, out.correlated_area);
+  put(o.spacing, out.spacing);
+  if (out.point_area > 0) out.point_area = rounded(out.spacing * out.spacing);
   return out;
 }
 

@@ -31,6 +31,8 @@ auto reasons() -> const std::vector<Reason>& {
       {"confidence-unseen",
        {unseen, crowns, bare},
        [](const Evidence& e) {
+         if (e[bare] > e[unseen])
+           return percent(e[bare]) + " of the footprint has no model, where the scan does not show the ground";
          return "the scan does not cover " + percent(e[unseen]) + " of the footprint" +
                 (e[crowns] > 0.5 * e[unseen] ? ", most of it below trees" : "");
        }},

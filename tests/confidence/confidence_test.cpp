@@ -67,6 +67,19 @@ TEST(Confidence, names_what_speaks_most_against_a_model_first) {
   }
 }
 
+TEST(Confidence, says_whether_the_scan_or_the_model_is_missing) {
+  const auto words = [](double not_seen, double not_built) {
+    auto evidence = good();
+    evidence[unseen] = not_seen;
+    evidence[bare] = not_built;
+    for (const auto& reason : confidence_of(evidence).reasons)
+      if (reason.code == "confidence-unseen") return reason.message;
+    return std::string();
+  };
+  EXPECT_EQ(words(0.8, 0), "the scan does not cover 80 % of the footprint");
+  EXPECT_EQ(words(0, 0.7), "70 % of the footprint has no model, where the scan does not show the ground");
+}
+
 TEST(Confidence, falls_with_every_measure_that_speaks_against_a_model) {
   const std::vector<std::pair<confidence::Measure, double>> worse{
       {unseen, 0.8},  {above, 0.4},  {below, 0.4},  {patch_above, 30}, {patch_below, 30}, {stacked, 2},
