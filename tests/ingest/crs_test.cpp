@@ -84,6 +84,19 @@ TEST_F(Frames, geojson_without_crs_that_is_not_degrees_is_local) {
   EXPECT_EQ(code(read({ground(0, 0, 100, 100)}, polygons({delft_}))), "ingest-no-overlap");
 }
 
+TEST_F(Frames, geojson_without_crs_over_a_raster_without_crs_is_local) {
+  std::string heights = "ncols 40\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 2.5\n";
+  for (int row = 0; row < 40; ++row) {
+    for (int column = 0; column < 40; ++column) heights += "1 ";
+    heights += "\n";
+  }
+  const auto scene = read({file("dsm.asc", heights)}, polygons({square(10, 10)}));
+  ASSERT_TRUE(scene) << base::to_string(scene.error());
+  EXPECT_EQ(scene->frame.crs, "");
+  EXPECT_TRUE(has_warning(*scene, "ingest-crs-local"));
+  EXPECT_EQ(corner(*scene), (geometry::Point2{10, 10}));
+}
+
 TEST_F(Frames, local_is_local_when_asked_for) {
   Options options;
   options.crs = "local";

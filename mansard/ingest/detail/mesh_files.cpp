@@ -70,21 +70,30 @@ auto is_below(const fs::path& file, const std::vector<std::string>& folders) -> 
   return std::ranges::any_of(folders, [&](const std::string& folder) { return name.starts_with(folder); });
 }
 
-auto crs_of_raster(const fs::path& path) -> std::optional<crs::MeshCrs> {
+/// Where a raster is: its CRS, and its box in that.
+struct RasterPlace {
+  std::optional<crs::MeshCrs> crs;
+  Box2 plan;
+};
+auto place_of_raster(const fs::path& path) -> RasterPlace {
   const crs::GdalMessages messages;
   crs::register_gdal();
   const formats::Confined confined(path);
   GDALDatasetH data =
       GDALOpenEx(formats::name_for_gdal(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr);
-  if (data == nullptr) return std::nullopt;  // why, reading it says
-  std::optional<crs::MeshCrs> crs;
+  RasterPlace place;
+  if (data == nullptr) return place;  // why, reading it says
   const auto* system = OGRSpatialReference::FromHandle(GDALGetSpatialRef(data));
   if (system != nullptr && (system->IsProjected() != 0 || system->IsGeographic() != 0)) {
-    crs.emplace();
-    crs->wkt = crs::wkt_of(crs::flat(*system).system);
+    place.crs.emplace();
+    place.crs->wkt = crs::wkt_of(crs::flat(*system).system);
   }
+  if (std::array<double, 6> to{}; GDALGetGeoTransform(data, to.data()) == CE_None)
+    for (const int column : {0, GDALGetRasterXSize(data)})
+      for (const int row : {0, GDALGetRasterYSize(data)})
+        place.plan.add({to[0] + to[1] * column + to[2] * row, to[3] + to[4] * column + to[5] * row});
   GDALClose(data);
-  return crs;
+  return place;
 }
 
 void warn_of_skipped(const std::map<std::string, std::size_t>& skipped, const std::string& subject,
@@ -165,7 +174,9 @@ auto MeshReading::find_places(const base::Run& run) -> base::Result<void> {
   std::map<fs::path, std::optional<formats::Georeference>> known;
   for (auto& source : sources_) {
     if (source.kind == Kind::raster) {
-      source.crs = crs_of_raster(source.path);
+      auto place = place_of_raster(source.path);
+      source.crs = std::move(place.crs);
+      source.plan = place.plan;
       continue;
     }
     if (source.kind == Kind::tileset) {
@@ -283,7 +294,8 @@ auto MeshReading::plan() const -> Box2 {
   const Point2 offset{options_.mesh_offset[0], options_.mesh_offset[1]};
   for (const auto& source : sources_) {
     Box2 box;
-    if (source.kind == Kind::file || source.kind == Kind::cloud) box = source.plan;
+    const bool placed_by_itself = source.kind == Kind::raster && source.crs;
+    if (source.kind != Kind::tileset && !placed_by_itself) box = source.plan;
     if (source.tileset) box = source.tileset->plan();
     if (box.empty()) continue;
     out.add(box.least + offset);
