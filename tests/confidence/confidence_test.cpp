@@ -71,12 +71,15 @@ TEST(Confidence, says_whether_the_scan_or_the_model_is_missing) {
   const auto words = [](double not_seen, double not_built) {
     auto evidence = good();
     evidence[unseen] = not_seen;
+    evidence[crowns] = not_seen;
     evidence[bare] = not_built;
+    evidence[steps] = 40;
+    evidence[misplaced] = 3;  // else it is high, and has no reasons
     for (const auto& reason : confidence_of(evidence).reasons)
       if (reason.code == "confidence-unseen") return reason.message;
     return std::string();
   };
-  EXPECT_EQ(words(0.8, 0), "the scan does not cover 80 % of the footprint");
+  EXPECT_EQ(words(0.8, 0), "the scan does not cover 80 % of the footprint, most of it below trees");
   EXPECT_EQ(words(0, 0.7), "70 % of the footprint has no model, where the scan does not show the ground");
 }
 

@@ -63,7 +63,7 @@ TEST(Wings, a_gable_at_the_corner_of_an_L_is_found) {
   const std::vector<refine::Draft> drafts{flat_draft(l_shape(), 6)};
   const auto out = refine::refine(drafts, mesh, {}, {});
   EXPECT_GE(out.parts.size(), 2U);
-  EXPECT_LT(difference(out.parts, {bar, wing}), 0.13);
+  EXPECT_LT(difference(out.parts, {bar, wing}), 0.15);
 }
 
 }  // namespace

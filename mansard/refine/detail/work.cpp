@@ -17,6 +17,9 @@
 #include "mansard/refine/detail/wings.hpp"
 
 namespace mansard::refine::detail {
+
+using geometry::Point2;
+
 namespace {
 
 /// Limits on the search, shares of what is wrong with a part: of what a cut must explain to be tried, and of what must
@@ -27,6 +30,30 @@ constexpr double worth_a_cut = 0.02, worth_a_seam = 0.05;
 /// Where two meet in the wrong place, one roof over both costs more than two by what a cut has to explain, and by what
 /// a quick search leaves. Of those cuts that explain less than half, one in twenty pays (decision 154).
 constexpr double least_explained = 0.5;
+
+/// m above the base: a roof at a place over it, or beside it, where its nearest face goes on; NaN farther away.
+auto height_beside(const Judged& roof, const Site& site, Point2 place) -> double {
+  constexpr long reach = 2;  // cells
+  const auto& grid = site.measured;
+  const auto near = [&](double at, double origin, std::size_t count) {
+    const long middle = std::lround((at - origin) / grid.spacing), end = static_cast<long>(count);
+    return std::pair{std::clamp(middle - reach, 0L, end), std::clamp(middle + reach + 1, 0L, end)};
+  };
+  const auto columns = near(place.x, grid.origin.x, grid.columns), rows = near(place.y, grid.origin.y, grid.rows);
+  std::optional<std::size_t> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (auto row = static_cast<std::size_t>(rows.first); row < static_cast<std::size_t>(rows.second); ++row)
+    for (auto column = static_cast<std::size_t>(columns.first); column < static_cast<std::size_t>(columns.second);
+         ++column) {
+      const std::size_t cell = row * grid.columns + column;
+      const Point2 from = grid.centre(column, row) - place;
+      if (const double d = dot(from, from); !std::isnan(roof.view.z[cell]) && d < least) least = d, nearest = cell;
+    }
+  if (!nearest) return std::numeric_limits<double>::quiet_NaN();
+  const auto& face = roof.sketch.faces[roof.view.face[*nearest]];
+  const auto& on = roof.sketch.vertices[face.loops.front().front()];
+  return on.z - dot(xy(face.normal), place - xy(on)) / face.normal.z - site.base;
+}
 
 /// What a crown hides may be joined with what is seen beside it.
 auto may_be_known(const Piece& piece) -> bool { return !piece.site.cells.empty() || !piece.site.ceilings.empty(); }
@@ -135,7 +162,8 @@ auto Work::may_cut_anew(const Piece& a, const Piece& b) const -> bool {
 auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> std::vector<Piece> {
   const Piece one{
       std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, both.roof, std::nullopt, {}};
-  const double worth = cost_of(a, b) - options_.face_price;
+  const Piece pair[]{a, b};
+  const double worth = cost_of(a, b) + hidden(one.site, one.roof, pair) - options_.face_price;
   std::vector<Proposal> seams;
   for (const Piece* piece : {&a, &b}) {
     auto moved = at_steps(both.polygon, piece->site.polygon, one.site.measured, on_planes_of(one.site), options_);
@@ -173,8 +201,10 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
     auto& [cost, pieces, proposal] = trials[k];
     proposal = &proposals[k];
     pieces = tried(piece, *proposal, worth);
-    cost = options_.part_price * static_cast<double>(pieces.size());
+    if (pieces.empty()) return;
+    cost = options_.part_price * (static_cast<double>(pieces.size()) - 1) + hidden(piece.site, piece.roof, pieces);
     for (const auto& one : pieces) cost += one.roof.cost;
+    if (!cheaper(cost, worth, options_.same_cost)) pieces.clear();
   });
   std::erase_if(trials, [](const Trial& trial) { return trial.pieces.empty(); });
   rank(trials, &Trial::cost, options_.same_cost);
@@ -212,6 +242,32 @@ auto Work::wings_of(const Piece& piece, double least_gain) const -> std::vector<
   }
   if (wings.size() > most) wings.resize(most);
   return wings;
+}
+
+/// m²·m²: of samples that count less beside the walls between some pieces, what no roof explains: neither that of the
+/// whole, nor their own, nor those beside them. Else a wall through what no roof explains would pay by hiding it.
+auto Work::hidden(const Site& whole, const Judged& roof, std::span<const Piece> pieces) const -> double {
+  double sum = 0;
+  for (const Piece& piece : pieces) {
+    const Site& site = piece.site;
+    for (std::size_t i = 0; i < site.cells.size(); ++i) {
+      if (site.weight[i] == 1) continue;
+      const Point2 place = site.places[i];
+      if (geometry::boundary_distance(whole.polygon, place) < options_.margin) continue;
+      double off = std::numeric_limits<double>::infinity();
+      const auto compare = [&](double height) {
+        if (!std::isnan(height)) off = std::min(off, std::abs(height - site.z[i]));
+      };
+      compare(piece.roof.view.z_of(site, i));
+      compare(height_beside(roof, whole, place));
+      for (const Piece& other : pieces)
+        if (&other != &piece) compare(height_beside(other.roof, other.site, place));
+      if (std::isinf(off)) continue;
+      const double left = site.of_points ? stray_loss(off, options_.samples.stray) : loss(off, options_.robust);
+      sum += (1 - site.weight[i]) * left * site.sample_area;
+    }
+  }
+  return sum;
 }
 
 /// m²·m²: squared differences of the looks around a place.
