@@ -96,13 +96,9 @@ auto places_on(const detail::Cells& samples) -> std::vector<Point2> {
   return out;
 }
 
-/// Where noise is one error over very many points, the plane through a point and its neighbours shows the noise rather
-/// than the roof: a point is no measurement of its own.
 void put_noise_of_points(const detail::Cells& points, std::span<const Point2> places, double ground,
                          model::Accuracy& out) {
-  constexpr double most_points = 50;  // four dozen neighbours
   put_noise(detail::noise_from(points.residuals(places, ground, least_of_points), ground), out);
-  if (out.windows > 0 && out.correlated_area < most_points * ground) out.point_area = ground;
 }
 
 /// A coarse mesh has its vertices where it bends, so that most discs over a small roof hold several of its faces.
@@ -123,8 +119,12 @@ void put_noise(const geometry::Mesh& mesh, const detail::Cells& samples, std::sp
                const std::function<bool(Point2)>& seen, model::Accuracy& out) {
   if (places.empty()) return;
   const double ground = put_spacing(samples, places, out);
-  if (mesh.points.empty()) put_noise_of_surface(mesh, samples, places, ground, seen, out);
-  else put_noise_of_points(samples, places, ground, out);
+  if (mesh.points.empty()) return put_noise_of_surface(mesh, samples, places, ground, seen, out);
+  put_noise_of_points(samples, places, ground, out);
+  // Where noise is one error over so many points, the plane through a point and its neighbours shows the noise rather
+  // than the roof: a point is no measurement of its own.
+  constexpr double most_points = 50;  // four dozen neighbours
+  if (out.windows > 0 && out.correlated_area < most_points * ground) out.point_area = ground;
 }
 
 /// Whether the vertices of a surface are what was measured, and its triangles only what was drawn between them: every

@@ -74,7 +74,7 @@ class MeshReading {
     bool by_metadata = false;                 ///< … the latter
     std::optional<formats::Tileset> tileset;  ///< of a tileset
     formats::MeshPiece piece;                 ///< of a file; without its mesh where that is in the cells
-    geometry::Box2 plan;                      ///< of a file
+    geometry::Box2 plan;                      ///< of a file or a raster
     bool in_cells = false;
     std::shared_ptr<SpooledMesh> spooled;  ///< of a file of any size that goes to the cells when it is known where to
     std::vector<formats::TileFile> tiles;  ///< of a tileset

@@ -31,8 +31,8 @@ constexpr double worth_a_cut = 0.02, worth_a_seam = 0.05;
 /// a quick search leaves. Of those cuts that explain less than half, one in twenty pays (decision 154).
 constexpr double least_explained = 0.5;
 
-/// m above the base: a roof at a place over it, or beside it, where its nearest face goes on; NaN farther away.
-auto height_beside(const Judged& roof, const Site& site, Point2 place) -> double {
+/// m: z of a roof at a place over it, or beside it, where its nearest face goes on; NaN farther away.
+auto z_beside(const Judged& roof, const Site& site, Point2 place) -> double {
   constexpr long reach = 2;  // cells
   const auto& grid = site.measured;
   const auto near = [&](double at, double origin, std::size_t count) {
@@ -52,7 +52,7 @@ auto height_beside(const Judged& roof, const Site& site, Point2 place) -> double
   if (!nearest) return std::numeric_limits<double>::quiet_NaN();
   const auto& face = roof.sketch.faces[roof.view.face[*nearest]];
   const auto& on = roof.sketch.vertices[face.loops.front().front()];
-  return on.z - dot(xy(face.normal), place - xy(on)) / face.normal.z - site.base;
+  return on.z - dot(xy(face.normal), place - xy(on)) / face.normal.z;
 }
 
 /// What a crown hides may be joined with what is seen beside it.
@@ -162,10 +162,10 @@ auto Work::may_cut_anew(const Piece& a, const Piece& b) const -> bool {
 auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> std::vector<Piece> {
   const Piece one{
       std::min(a.draft_index, b.draft_index), both_of(a, b, both.polygon), both.draft, both.roof, std::nullopt, {}};
-  const Piece pair[]{a, b};
+  const Piece* const pair[]{&a, &b};
   const double worth = cost_of(a, b) + hidden(one.site, one.roof, pair) - options_.face_price;
   std::vector<Proposal> seams;
-  for (const Piece* piece : {&a, &b}) {
+  for (const Piece* piece : pair) {
     auto moved = at_steps(both.polygon, piece->site.polygon, one.site.measured, on_planes_of(one.site), options_);
     if (moved && moved->outer != piece->site.polygon.outer)
       seams.push_back({std::move(*moved), misfit_between(a, b), 0, "its wall where the scan has it", false});
@@ -202,7 +202,9 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
     proposal = &proposals[k];
     pieces = tried(piece, *proposal, worth);
     if (pieces.empty()) return;
-    cost = options_.part_price * (static_cast<double>(pieces.size()) - 1) + hidden(piece.site, piece.roof, pieces);
+    std::vector<const Piece*> each;
+    for (const auto& one : pieces) each.push_back(&one);
+    cost = options_.part_price * (static_cast<double>(pieces.size()) - 1) + hidden(piece.site, piece.roof, each);
     for (const auto& one : pieces) cost += one.roof.cost;
     if (!cheaper(cost, worth, options_.same_cost)) pieces.clear();
   });
@@ -246,10 +248,10 @@ auto Work::wings_of(const Piece& piece, double least_gain) const -> std::vector<
 
 /// m²·m²: of samples that count less beside the walls between some pieces, what no roof explains: neither that of the
 /// whole, nor their own, nor those beside them. Else a wall through what no roof explains would pay by hiding it.
-auto Work::hidden(const Site& whole, const Judged& roof, std::span<const Piece> pieces) const -> double {
+auto Work::hidden(const Site& whole, const Judged& roof, std::span<const Piece* const> pieces) const -> double {
   double sum = 0;
-  for (const Piece& piece : pieces) {
-    const Site& site = piece.site;
+  for (const Piece* piece : pieces) {
+    const Site& site = piece->site;
     for (std::size_t i = 0; i < site.cells.size(); ++i) {
       if (site.weight[i] == 1) continue;
       const Point2 place = site.places[i];
@@ -258,10 +260,10 @@ auto Work::hidden(const Site& whole, const Judged& roof, std::span<const Piece> 
       const auto compare = [&](double height) {
         if (!std::isnan(height)) off = std::min(off, std::abs(height - site.z[i]));
       };
-      compare(piece.roof.view.z_of(site, i));
-      compare(height_beside(roof, whole, place));
-      for (const Piece& other : pieces)
-        if (&other != &piece) compare(height_beside(other.roof, other.site, place));
+      compare(piece->roof.view.z_of(site, i));
+      compare(z_beside(roof, whole, place) - site.base);
+      for (const Piece* other : pieces)
+        if (other != piece) compare(z_beside(other->roof, other->site, place) - site.base);
       if (std::isinf(off)) continue;
       const double left = site.of_points ? stray_loss(off, options_.samples.stray) : loss(off, options_.robust);
       sum += (1 - site.weight[i]) * left * site.sample_area;

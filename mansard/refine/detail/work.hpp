@@ -111,7 +111,8 @@ class Work {
       -> std::vector<Piece>;
   [[nodiscard]] auto cuts_of(const Piece& piece, double least_gain) const -> std::vector<Proposal>;
   [[nodiscard]] auto wings_of(const Piece& piece, double least_gain) const -> std::vector<Proposal>;
-  [[nodiscard]] auto hidden(const Site& whole, const Judged& roof, std::span<const Piece> pieces) const -> double;
+  [[nodiscard]] auto hidden(const Site& whole, const Judged& roof, std::span<const Piece* const> pieces) const
+      -> double;
   [[nodiscard]] auto misfit_about(const Piece& piece, geometry::Point2 place, double within) const -> double;
   [[nodiscard]] auto misfit_near(const Piece& piece, const geometry::Polygon& other) const -> double;
   [[nodiscard]] auto cost_of_faces(const geometry::Polygon& polygon) const -> double;
