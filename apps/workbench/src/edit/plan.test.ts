@@ -7,6 +7,7 @@ import {
   clean,
   collinear,
   deleteVertex,
+  depthBehind,
   edgesOf,
   inScope,
   insertVertex,
@@ -250,5 +251,10 @@ describe("relations", () => {
         ]),
       ),
     ).toBeCloseTo(0);
+  });
+
+  it("measure how far the footprint reaches behind an edge", () => {
+    expect([0, 1, 2, 3].map((e) => depthBehind(house(), at(e)))).toEqual([8, 10, 8, 10]);
+    expect(depthBehind(courtyardHouse(), { ring: 1, edge: 0 })).toBeCloseTo(4); // the wall of the court at x = 4 looks west
   });
 });

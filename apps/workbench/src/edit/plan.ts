@@ -54,6 +54,14 @@ export const cornerEdgesOf = (plan: Plan): EdgeAt[] => edgesOf(plan).filter((e) 
 export const edgeName = (plan: Plan, at: EdgeAt) => `${isCorner(plan, at) ? "corner edge" : "edge"} ${at.edge}`;
 export const sameEdge = (a: EdgeAt, b: EdgeAt) => a.ring === b.ring && a.edge === b.edge;
 
+/** How far the footprint reaches behind an edge, metres: at right angles to it, or from the corner of one without extent. */
+export function depthBehind(plan: Plan, at: EdgeAt): number {
+  const ends = endsOf(plan, at);
+  if (!ends) return 0;
+  const along = isCorner(plan, at) ? null : unit(minus(ends[1], ends[0]));
+  return Math.max(0, ...plan.outer.points.map((p) => (along ? cross(along, minus(p, ends[0])) : distance(p, ends[0]))));
+}
+
 /** Area of the footprint, m². */
 export const planArea = (plan: Plan) =>
   ringsOf(plan).reduce((sum, r, i) => sum + (i ? -1 : 1) * Math.abs(area(r.points)), 0);

@@ -5,7 +5,7 @@ import { metres } from "./numbers";
 import type { Neighbour } from "./neighbours";
 import { before, cornerEdgesOf, edgesOf, endsOf, isCorner, profileOf, ringOf, ringsOf, sameEdge, wallsOf, type EdgeAt } from "./plan";
 import { degreesOf, kindOf, pitchOf } from "./profile";
-import { toPixels, type Sheet } from "./sheet";
+import { gripRadius, toPixels, type Sheet } from "./sheet";
 import type { Guide } from "./snap";
 import { bearingOf, turnedAt, type TurnedAt } from "./turned_roof";
 import { cornerAt } from "./corner_edges";
@@ -270,14 +270,17 @@ export function Corners(props: {
   grips: Grips;
 }) {
   const { sheet, plan, hidden, selected, onFocus, grips } = props;
+  const corners = edgesOf(plan).flatMap((at) => {
+    const ring = ringOf(plan, at.ring)!;
+    // Both ends of a corner edge are one corner.
+    if (hidden.has(at.ring) || isCorner(plan, { ring: at.ring, edge: before(ring, at.edge) })) return [];
+    const p = isCorner(plan, at) ? cornerAt(ring, at.edge) : ring.points[at.edge]!;
+    return [{ at, p, place: toPixels(sheet, p) }];
+  });
+  const places = corners.map((c) => c.place);
   return (
     <>
-      {edgesOf(plan).filter((at) => !hidden.has(at.ring)).map((at) => {
-        const ring = ringOf(plan, at.ring)!;
-        // Both ends of a corner edge are one corner.
-        if (isCorner(plan, { ring: at.ring, edge: before(ring, at.edge) })) return null;
-        const p = isCorner(plan, at) ? cornerAt(ring, at.edge) : ring.points[at.edge]!;
-        const [cx, cy] = toPixels(sheet, p);
+      {corners.map(({ at, p, place: [cx, cy] }) => {
         const isSelected = selected !== null && sameEdge(selected, at);
         return (
           <g key={`${at.ring} ${at.edge}`} class={`corner${isSelected ? " selected" : ""}`}>
@@ -286,7 +289,7 @@ export function Corners(props: {
               class="grip"
               cx={cx}
               cy={cy}
-              r={9}
+              r={gripRadius([cx, cy], places, 9)}
               tabindex={0}
               role="button"
               aria-label={`corner ${at.edge}${inHole(at)} at ${p[0].toFixed(2)}, ${p[1].toFixed(2)}`}

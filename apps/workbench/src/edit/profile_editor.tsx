@@ -21,7 +21,7 @@ import {
 import { session } from "./here";
 import { capOver } from "./handles";
 import { cubicMetres, metres } from "./numbers";
-import { changeProfiles, collinear, edgeName, edgesOf, inScope, opposite, profileOf, ringOf, setProfile, type EdgeAt, type Scope } from "./plan";
+import { changeProfiles, collinear, depthBehind, edgeName, edgesOf, inScope, opposite, profileOf, ringOf, setProfile, type EdgeAt, type Scope } from "./plan";
 import {
   continued,
   degreesOf,
@@ -43,7 +43,7 @@ import {
 import { Backdrop, lineOf } from "./profile_backdrop";
 import { ProfileFields } from "./profile_fields";
 import { onSeveral, type Change, type PartAt } from "./several";
-import { fitted, panned, toMetres, toPixels, zoomed } from "./sheet";
+import { fitted, gripRadius, panned, toMetres, toPixels, zoomed } from "./sheet";
 import { known, rounded, snapProfilePoint, type ProfileSnap } from "./snap";
 import { count, rmse } from "../panels/words";
 import { bearingOf, capAbove, liftOf, turnedAt, turnedTo, wallBeside } from "./turned_roof";
@@ -85,7 +85,9 @@ export function ProfileEditor() {
   const extent = (): Point2[] => {
     if (!plan || !profile) return [];
     const top = Math.max(Math.min(plan.cap, ridge ?? plan.cap), profile.at(-1)![1]);
-    const reach = continued(profile, top)?.[0] ?? profile.at(-1)![0];
+    const end = profile.at(-1)![0];
+    // A roof of two degrees reaches the height of the ridge far outside the part.
+    const reach = Math.max(end, Math.min(continued(profile, top)?.[0] ?? end, depthBehind(plan, at!)));
     return [
       [-1.5, 0],
       [Math.max(reach, 2), top],
@@ -377,6 +379,7 @@ export function ProfileEditor() {
   const [left] = toMetres(now, [0, 0]);
   const [right] = toMetres(now, [now.width, now.height]);
   const extended = continued(profile, top);
+  const places = profile.map((p) => toPixels(now, p));
   const ghostEnd = ghost && continued(ghost, top);
 
   const instructions =
@@ -485,7 +488,7 @@ export function ProfileEditor() {
           </g>
         )}
         {profile.map((p, i) => {
-          const [cx, cy] = toPixels(now, p);
+          const [cx, cy] = places[i]!;
           if (i === 0) return <rect key={i} class="foot" x={cx - 4} y={cy - 4} width={8} height={8} />;
           const slope = slopeTo(profile, i);
           const pitchWords = slope === Infinity ? "top of a wall" : `pitch ${degreesOf(slope!).toFixed(1)} degrees below`;
@@ -496,7 +499,7 @@ export function ProfileEditor() {
                 class="grip"
                 cx={cx}
                 cy={cy}
-                r={10}
+                r={gripRadius([cx, cy], places, 10)}
                 tabindex={0}
                 role="button"
                 aria-label={`point ${i}, ${p[0].toFixed(2)} metres inward, ${p[1].toFixed(2)} metres high, ${pitchWords}`}

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { fitted, panned, ruling, toMetres, toPixels, zoomed, type Sheet } from "./sheet";
+import { fitted, gripRadius, panned, ruling, toMetres, toPixels, zoomed, type Sheet } from "./sheet";
 
 const sheet: Sheet = { centre: [100, 50], scale: 10, width: 400, height: 200 };
 
@@ -43,5 +43,13 @@ describe("a sheet", () => {
     expect(ruling(100, 36)).toBe(0.5);
     expect(ruling(3, 36)).toBe(20);
     for (const scale of [0.3, 1, 7, 55, 900]) expect(ruling(scale, 36) * scale).toBeGreaterThanOrEqual(36 - 1e-9);
+  });
+  it("has handles that share the room between them", () => {
+    const handles: [number, number][] = [
+      [0, 0],
+      [12, 0],
+      [100, 0],
+    ];
+    expect(handles.map((h) => gripRadius(h, handles, 10))).toEqual([6, 6, 10]);
   });
 });

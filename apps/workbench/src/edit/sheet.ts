@@ -56,3 +56,7 @@ export function ruling(scale: number, apart: number): number {
   const power = 10 ** Math.floor(Math.log10(needed));
   return power * ([1, 2, 5].find((m) => m * power >= needed) ?? 10);
 }
+
+/** Radius in pixels in which a handle takes the pointer: half the way to the next one where that is less than `reach`. */
+export const gripRadius = (at: Point2, handles: Point2[], reach: number) =>
+  Math.min(reach, ...handles.map((h) => Math.hypot(h[0] - at[0], h[1] - at[1]) / 2).filter((half) => half > 0));
