@@ -61,8 +61,7 @@ void for_each_block(const RealInput& input, const std::filesystem::path& data, c
   reading.mesh_offset = input.mesh_offset;
   const auto scene = value_or_end(ingest::read_scene({data / input.mesh}, data / input.footprints, reading));
   for (const block::Block& block : block::partition(scene, {})) {
-    const auto edges =
-        sweep::with_roof_steps(sweep::find_edges(slice::cut(block, {}), block, {}), block, rays::Scene(block.mesh), {});
+    const auto edges = sweep::find_edges(slice::cut(block, {}), block, {});
     geometry::Box2 region;
     for (const auto& polygon : block.outline)
       for (const geometry::Point2 p : polygon.outer) region.add(p);

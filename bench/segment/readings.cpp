@@ -1,9 +1,8 @@
 // How well the readings of the model recover what was planted. Prints a table, a line for every combination:
 //   bench_readings FIRST_SEED LAST_SEED [OPTION=VALUE,VALUE…]…     bench_readings 1 5 height_weight=1,8,16
 //   thin_rule=all
-// OPTION is one of segment's, or step_height or step_length of sweep's: roof steps are looked for in the planted scan
-// only where step_height is given. Every kind of block with every seed, once with a feature for each house and once
-// with one feature for all.
+// OPTION is one of segment's. Every kind of block with every seed, once with a feature for each house and once with one
+// feature for all.
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -41,7 +40,6 @@ auto grid_of(std::string_view word) -> std::optional<Grid> {
 struct Setting {
   std::string name;
   segment::Options options;
-  sweep::Options sweep{.step_height = 0};
 };
 
 auto product(const std::vector<Grid>& grids) -> std::optional<std::vector<Setting>> {
@@ -50,10 +48,8 @@ auto product(const std::vector<Grid>& grids) -> std::optional<std::vector<Settin
     std::vector<Setting> more;
     for (const Setting& setting : settings)
       for (const auto& value : grid.values) {
-        Setting next{setting.name + "| " + value + " ", setting.options, setting.sweep};
-        const auto list = grid.name.starts_with("step_") && grid.name != "step_full"
-                              ? sweep::option_list(next.sweep)
-                              : segment::option_list(next.options);
+        Setting next{setting.name + "| " + value + " ", setting.options};
+        const auto list = segment::option_list(next.options);
         const auto* option = list.find(grid.name);
         if (option == nullptr || !option->set(value)) {
           std::fprintf(stderr, "no such option or value: %s=%s\n", grid.name.c_str(), value.c_str());
@@ -88,10 +84,8 @@ auto measured(const planted::Recipe& recipe, const std::vector<Setting>& setting
   const auto truth = planted::plan_of(planted);
   std::vector<char> failed(settings.size(), 0);
   base::parallel_for(settings.size(), [&](std::size_t i) {
-    planted::Block seen = planted;
-    seen.edges = sweep::with_roof_steps(planted.edges, planted.block, mesh, settings[i].sweep);
-    const auto arrangement = planted::fractured(seen, settings[i].options);
-    const auto found = segment::choose(arrangement, seen.edges, seen.block, mesh, settings[i].options);
+    const auto arrangement = planted::fractured(planted, settings[i].options);
+    const auto found = segment::choose(arrangement, planted.edges, planted.block, mesh, settings[i].options);
     if (found) add(sums[i], planted::score(truth, planted::plan_of(found->parts)), *found);
     failed[i] = found ? 0 : 1;
   });

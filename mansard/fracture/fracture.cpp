@@ -92,8 +92,7 @@ auto insert_all(const std::vector<Cut>& cuts, const Box2& rectangle, const Optio
       continue;
     }
     const auto mark = graph.mark();
-    const double continuation = cuts[i].continuation.value_or(options.continuation);
-    const auto attempts = attempts_for(lines[i], middle, continuation, tolerances.merge);
+    const auto attempts = attempts_for(lines[i], middle, options.continuation, tolerances.merge);
     const bool inserted = std::ranges::any_of(attempts, [&](const detail::Attempt& attempt) {
       if (insertion.lay(i, attempt) && (!wary || !detail::fault_of(detail::faces_of(graph, cuts), options.snap)))
         return true;

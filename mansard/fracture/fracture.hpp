@@ -24,8 +24,6 @@ enum class Kind : std::uint8_t {
 struct Cut {
   geometry::Segment2 segment;
   std::uint32_t source = 0;  ///< the caller's number for it, remembered by every edge that comes of it
-  /// m; how far it goes on beyond both ends, if not as far as the others.
-  std::optional<double> continuation = std::nullopt;
 };
 
 /// Why an edge is there. An edge may lie on several cuts.

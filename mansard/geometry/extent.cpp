@@ -42,10 +42,11 @@ auto extent_of(std::vector<Point2> points) -> Extent {
       const double a = dot(along, p - hull[i]);
       from = std::min(from, a), to = std::max(to, a), deep = std::max(deep, dot(across, p - hull[i]));
     }
-    all.push_back({std::min(to - from, deep), std::max(to - from, deep)});
+    const Point2 first = hull[i] + from * along, last = hull[i] + to * along, up = deep * across;
+    all.push_back({std::min(to - from, deep), std::max(to - from, deep), {first, last, last + up, first + up}});
     least = std::min(least, (to - from) * deep);
   }
-  Extent out{std::numeric_limits<double>::infinity(), 0};
+  Extent out{.width = std::numeric_limits<double>::infinity()};
   for (const auto& one : all)
     if (one.width * one.length <= as_small * least && one.width < out.width) out = one;
   return out;

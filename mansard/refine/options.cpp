@@ -150,19 +150,6 @@ void add_wings(OptionList& list, Options::Wings& o) {
       .advanced(by_hand);
 }
 
-void add_cuts(OptionList& list, Options::Cuts& o) {
-  list.number("cuts_new_direction", o.new_direction, "rad", angle,
-              "The walls of a structure are a direction of their own where they differ from all others by more than "
-              "this.")
-      .advanced("8°; chosen by hand, not measured")
-      .number("cuts_sliver_area", o.sliver_area, "m²", area,
-              "A piece smaller than this that a cut would leave goes with the structure.")
-      .advanced(by_hand)
-      .number("cuts_sliver_width", o.sliver_width, "m", length,
-              "A piece of a smaller mean width that a cut would leave goes with the structure.")
-      .advanced(by_hand);
-}
-
 void add_dormers(OptionList& list, Options::Dormers& o) {
   list.flag("dormers", o.wanted, "Whether dormers are looked for on the slopes of roofs.")
       .source(decision_87)
@@ -182,25 +169,12 @@ void add_dormers(OptionList& list, Options::Dormers& o) {
 void add_directions(OptionList& list, Options::Directions& o) {
   list.number("directions_same", o.same, "rad", angle,
               "Edges of a part that differ by at most this have one direction.")
-      .advanced("5°; chosen by hand, not measured")
-      .number("directions_other", o.other, "rad", angle,
-              "A second direction of a part differs from the first by at least this.")
-      .advanced("12°; nearer ones serve the same walls; not measured");
-}
-
-void add_regions(OptionList& list, Options::Regions& o) {
-  list.number("regions_bin", o.bin, "m", {0.01, 10}, "Width of a bin in the histogram of height differences.")
-      .advanced(by_hand);
+      .advanced("5°; chosen by hand, not measured");
 }
 
 void add_outlines(OptionList& list, Options::Outlines& o) {
-  list.number("outlines_min_contrast", o.min_contrast, "m", height,
-              "A wall is moved to a step where the roofs on both sides differ by at least this.")
-      .advanced(by_hand)
-      .number("outlines_max_move", o.max_move, "m", length, "Maximum distance by which a wall is moved to a step.")
-      .advanced(by_hand)
-      .number("outlines_near_edge", o.near_edge, "m", length,
-              "A strip narrower than this between a wall and an edge of the part or another rectangle is closed.")
+  list.number("outlines_near_edge", o.near_edge, "m", length,
+              "A strip narrower than this between a wall and an edge of the part is closed.")
       .advanced(by_hand)
       .number("outlines_near_line", o.near_line, "m", length,
               "A wall nearer than this to the line of an edge farther along continues that edge.")
@@ -245,10 +219,8 @@ auto option_list(Options& o) -> OptionList {
   add_tall(list, o.tall);
   add_joins(list, o.joins);
   add_wings(list, o.wings);
-  add_cuts(list, o.cuts);
   add_dormers(list, o.dormers);
   add_directions(list, o.directions);
-  add_regions(list, o.regions);
   add_outlines(list, o.outlines);
   add_splits(list, o.splits);
   add_surfaces(list, o.surfaces);

@@ -230,15 +230,11 @@ struct Options {
     double line_min_width = 1.25;  ///< m; no option: decided_by
     /// Two cuts are one where at most this share of their cells is on different sides. Chosen by hand; not measured.
     double same_share = 0.25;
-    /// An outline is ranked lower by this share of its gain for each of its rectangles. Chosen by hand; not measured.
-    double shape_price = 0.04;
-    double new_direction = 0.14;                       ///< rad
-    static constexpr std::int64_t max_directions = 4;  ///< a limit on the search
+    /// An outline is ranked lower than a line by this share of its gain. Chosen by hand; not measured.
+    double outline_price = 0.04;
     /// Cuts are compared with at most about this many samples; of more, every second or third is used. Chosen by hand;
     /// not measured.
     double max_cells = 8000;
-    double sliver_area = 1;                   ///< m²
-    double sliver_width = 0.5;                ///< m
     static constexpr double rise_reach = 2;   ///< m; four times samples.melt; only told, decides nothing
     static constexpr double min_rise = 0.25;  ///< m; half of min_step; only told, decides nothing
   } cuts;
@@ -262,12 +258,9 @@ struct Options {
     double gable_gain = 0.8;
   } dormers;
 
-  /// The directions of a part, and rasters along them (propose_raster).
+  /// The direction of a part, and rasters along it (propose_raster).
   struct Directions {
-    double same = 5 * std::numbers::pi / 180;    ///< rad
-    double other = 12 * std::numbers::pi / 180;  ///< rad
-    /// A second direction has at least this share of a part's outline. Chosen by hand; not measured.
-    double second_share = 0.25;
+    double same = 5 * std::numbers::pi / 180;  ///< rad
     /// A place has a height where the cells around it that were sampled have at least this weight of bilinear
     /// interpolation. Chosen by hand; not measured.
     double min_weight = 0.25;
@@ -276,18 +269,6 @@ struct Options {
   /// Connected regions above or below the model (propose_regions).
   struct Regions {
     static constexpr std::int64_t gap_cells = 3;  ///< of the grid
-    double bin = 0.25;                            ///< m
-    static constexpr double max_residual = 40;    ///< m; the histogram ends there
-    /// A peak of the histogram holds at least this share of cuts.min_area in its three bins. Chosen by hand; not
-    /// measured.
-    double peak_share = 0.5;
-    /// Two peaks of the histogram are two levels where the valley between them is lower than this share of the lower
-    /// one. Chosen by hand; not measured.
-    double valley = 0.5;
-    static constexpr std::int64_t max_levels = 6;  ///< a limit on the search
-    /// A level is used where it differs from the model by more than this multiple of refine.cuts_min_step. Chosen by
-    /// hand; not measured.
-    double level_clearance = 1.5;
     /// A region has at least this share of cuts.min_area; its outline may have more. Chosen by hand; not measured.
     double min_area_share = 0.75;
     /// A region is used where at least this share of its cells was sampled. Chosen by hand; not measured.
@@ -295,10 +276,6 @@ struct Options {
     /// What a region surrounds is tried in its place where the region fills at most this share of its box. Chosen by
     /// hand; not measured.
     double hollow_share = 0.75;
-    static constexpr std::int64_t rim_cells = 2;  ///< of the grid
-    /// The walls of a region have a direction where their resultant is at least this share of their sum. Noise around a
-    /// square reaches 0.2; not measured further.
-    double agreement = 0.6;
   } regions;
 
   /// Rectangles around such regions, and their walls (propose_outline).
@@ -307,22 +284,10 @@ struct Options {
     std::int64_t cells = 48;
     /// Price of a cell outside the part, where a cell of the region has a worth of 1. Chosen by hand; not measured.
     double outside_price = 0.05;
-    /// Maximum number of rectangles of an outline. Chosen by hand; not measured.
-    std::int64_t max_rectangles = 3;
     /// A rectangle has at least this share of cuts.min_area. Chosen by hand; not measured.
     double min_area_share = 0.4;
-    /// A rectangle adds at least this share of the region's cells. Chosen by hand; not measured.
-    double min_addition = 0.08;
     /// A rectangle is at least this share of refine.cuts_min_width wide. Chosen by hand; not measured.
     double min_width_share = 0.8;
-    double min_contrast = 0.3;  ///< m
-    double max_move = 1;        ///< m
-    /// A column beside a wall is used where at least this share of its rows was sampled. Chosen by hand; not measured.
-    double row_share = 0.3;
-    /// Number of times that a step is searched for again. Chosen by hand; not measured.
-    std::int64_t step_rounds = 3;
-    /// Number of times that all walls of an outline are moved to steps. Chosen by hand; not measured.
-    std::int64_t settle_rounds = 2;
     /// A wall goes out to the part's edge where at least this share of its rows ends near it. Chosen by hand; not
     /// measured.
     double push_share = 0.9;

@@ -105,26 +105,19 @@ auto made_by_layer(const model::MadeBy& made_by) -> formats::Layer {
 
 auto empty_sweep_edges() -> formats::Layer {
   return {"sweep_edges",
-          "Walls and roof steps as the mesh shows them, in plan; outside on the left",
+          "Walls as the mesh shows them, in plan; outside on the left",
           formats::Shape::line,
-          {{"block"},
-           {"number", integer},
-           {"evidence"},
-           {"area", real},
-           {"low", real},
-           {"high", real},
-           {"length", real},
-           {"step", real}},
+          {{"block"}, {"number", integer}, {"area", real}, {"low", real}, {"high", real}, {"length", real}},
           {}};
 }
 
 void add_sweep_edges(const SegmentedBlock& block, double z0, formats::Layer& layer) {
   for (std::size_t i = 0; i < block.sweep_edges.size(); ++i) {
     const auto& edge = block.sweep_edges[i];
-    layer.features.push_back({{{edge.segment.start, edge.segment.end}},
-                              {},
-                              {block.name, as_whole(i), edge.evidence == sweep::Evidence::wall ? "wall" : "roof step",
-                               edge.area, z0 + edge.low, z0 + edge.high, length_of(edge.segment), edge.step}});
+    layer.features.push_back(
+        {{{edge.segment.start, edge.segment.end}},
+         {},
+         {block.name, as_whole(i), edge.area, z0 + edge.low, z0 + edge.high, length_of(edge.segment)}});
   }
 }
 

@@ -13,9 +13,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("height_weight", o.height_weight, "", {0, 1e6},
               "Cost of joining faces across a metre of edge, per metre of height difference.")
       .source("docs/decisions/0012");
-  list.number("step_full", o.step_full, "m", {0, 100},
-              "A roof step of this height left unused costs as much as a wall, a lower one in proportion.")
-      .source("docs/decisions/0016");
   list.number("phi", o.phi, "", {0, 1e6},
               "Cost of a pair of edges that make a sliver or a needle, as a share of the total edge length.")
       .source("paper: 0.5");

@@ -35,12 +35,11 @@ struct SearchLimits {
 };
 
 struct Options {
-  double alpha = 40.0;          ///< per metre of sweep-edge left unused
-  double beta = 60.0;           ///< per metre of footprint edge without a sweep-edge
-  double height_weight = 16.0;  ///< of O2, per metre and metre of height difference
-  double step_full = 1.0;       ///< m; an unused roof step of this height pays the whole α, a lower one its share
-  double phi = 0.5;             ///< of O7, times the total edge length
-  double thin_distance = 2.0;   ///< m; O7: opposite edges nearer than this
+  double alpha = 40.0;                     ///< per metre of sweep-edge left unused
+  double beta = 60.0;                      ///< per metre of footprint edge without a sweep-edge
+  double height_weight = 16.0;             ///< of O2, per metre and metre of height difference
+  double phi = 0.5;                        ///< of O7, times the total edge length
+  double thin_distance = 2.0;              ///< m; O7: opposite edges nearer than this
   double thin_angle = 0.5235987755982988;  ///< rad; O7: adjacent edges under this angle
   Continuations continuations = Continuations::plain;
   ThinRule thin_rule = ThinRule::unsupported;

@@ -47,22 +47,13 @@ auto is_sound(const fracture::Arrangement& arrangement, const sweep::SweepEdges&
 auto cuts_of(const sweep::SweepEdges& edges, const block::Block& block, const Options& options)
     -> std::vector<fracture::Cut> {
   std::vector<fracture::Cut> cuts;
-  const auto is_wall = [&](std::uint32_t i) { return edges.edges[i].evidence == sweep::Evidence::wall; };
-  for (std::uint32_t i = 0; i < edges.edges.size(); ++i)
-    if (is_wall(i)) cuts.push_back({edges.edges[i].segment, i});
-  if (options.gis_edges != GisEdges::ignore) {
-    const auto footprints = detail::registered(block, edges.registration);
-    auto lines = detail::party_lines(footprints, options);
-    sweep::SweepEdges walls;  // a step in the roof beside it does not show a wall
-    walls.registration = edges.registration;
-    std::ranges::copy_if(edges.edges, std::back_inserter(walls.edges),
-                         [](const sweep::SweepEdge& e) { return e.evidence == sweep::Evidence::wall; });
-    const auto torn = detail::torn_lines(footprints, walls, options);
-    lines.insert(lines.end(), torn.begin(), torn.end());
-    for (std::uint32_t j = 0; j < lines.size(); ++j) cuts.push_back({lines[j], gis_source + j});
-  }
-  for (std::uint32_t i = 0; i < edges.edges.size(); ++i)
-    if (!is_wall(i)) cuts.push_back({edges.edges[i].segment, i, 0.0});
+  for (std::uint32_t i = 0; i < edges.edges.size(); ++i) cuts.push_back({edges.edges[i].segment, i});
+  if (options.gis_edges == GisEdges::ignore) return cuts;
+  const auto footprints = detail::registered(block, edges.registration);
+  auto lines = detail::party_lines(footprints, options);
+  const auto torn = detail::torn_lines(footprints, edges, options);
+  lines.insert(lines.end(), torn.begin(), torn.end());
+  for (std::uint32_t j = 0; j < lines.size(); ++j) cuts.push_back({lines[j], gis_source + j});
   return cuts;
 }
 
@@ -77,7 +68,7 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
   detail::peel(arrangement, options, evidence.faces);
 
   Segmentation segmentation;
-  segmentation.candidates = detail::candidates_of(arrangement, edges, evidence.faces, options);
+  segmentation.candidates = detail::candidates_of(arrangement, evidence.faces, options);
   if (options.height_measure == HeightMeasure::along)
     detail::measure_steps(arrangement, mesh, options, segmentation.candidates);
   const auto candidate_of = detail::candidate_of_half_edge(arrangement, segmentation.candidates);
@@ -98,7 +89,7 @@ auto choose(const fracture::Arrangement& arrangement, const sweep::SweepEdges& e
   for (Candidate& c : segmentation.candidates) c.solved = label_of_face[c.left] != label_of_face[c.right];
   segmentation.rows = detail::star_rows(problem.multicut);
   for (CycleRow& row : answer.rows) segmentation.rows.push_back(std::move(row));
-  segmentation.terms = detail::terms_of(arrangement, edges, label_of_face, segmentation.candidates, candidate_of,
+  segmentation.terms = detail::terms_of(arrangement, label_of_face, segmentation.candidates, candidate_of,
                                         segmentation.conflicts, segmentation.phi, options);
   segmentation.objective = segmentation.terms.sum();
   // The program counts in thousandths, rounded twice per candidate; the terms do not.

@@ -7,23 +7,22 @@ namespace mansard::segment {
 namespace {
 
 using HalfEdge = fracture::HalfEdge;
-using Edges = sweep::SweepEdges;
 
 constexpr std::array<TermInfo, term_count> all{{
     {Term::sweep_unused, Paid::uncut, "sweep_unused", "O1 α", "unused sweep-edges", "unused", "cost_sweep_unused",
-     "sweep_length", &Options::alpha, detail::sweep_share,
+     "sweep_length", &Options::alpha,
+     [](const HalfEdge& h, const Options& o) { return detail::is_sweep(h, o) ? 1.0 : 0.0; },
      [](double amount) { return "leaving " + base::metres(amount) + " of sweep-edge unused"; }},
     {Term::unsupported, Paid::cut, "unsupported", "O1 β", "walls without a sweep-edge", "unsupported",
      "cost_unsupported", "unsupported_length", &Options::beta,
-     [](const HalfEdge& h, const Edges&, const Options& o) { return detail::is_supported(h, o) ? 0.0 : 1.0; },
+     [](const HalfEdge& h, const Options& o) { return detail::is_supported(h, o) ? 0.0 : 1.0; },
      [](double amount) { return base::metres(amount) + " without a sweep-edge"; }},
     {Term::height, Paid::uncut, "height", "O2", "height steps", "steps", "cost_height", "height_difference",
      &Options::height_weight, nullptr, [](double amount) { return "the height step of " + base::metres(amount); }},
     {Term::thin, Paid::cut, "thin", "O7", "conflicts", "thin", "cost_outline_conflict", "", nullptr, nullptr,
      [](double) { return std::string("its conflict with the outline"); }},
     {Term::gis_unused, Paid::uncut, "gis_unused", "GIS", "unused GIS edges", "GIS", "cost_gis_unused", "gis_length",
-     &Options::gis_alpha,
-     [](const HalfEdge& h, const Edges&, const Options& o) { return detail::pays_as_gis(h, o) ? 1.0 : 0.0; },
+     &Options::gis_alpha, [](const HalfEdge& h, const Options& o) { return detail::pays_as_gis(h, o) ? 1.0 : 0.0; },
      [](double amount) { return "leaving " + base::metres(amount) + " of GIS edge unused"; }},
 }};
 

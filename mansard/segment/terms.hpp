@@ -34,7 +34,7 @@ struct TermInfo {
   /// φ for each conflict.
   double Options::*weight;
   /// The share of a half-edge's length that pays; null where all of it does, by an amount measured on the whole edge.
-  double (*share)(const fracture::HalfEdge&, const sweep::SweepEdges&, const Options&);
+  double (*share)(const fracture::HalfEdge&, const Options&);
   /// What is paid for, after "480 for"; by the amount, metres.
   std::string (*reason)(double amount);
 };

@@ -37,11 +37,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("setback", o.setback, "m", {0.3, 20},
               "Wall feet at least this far from their side's median become sweep-edges of their own.")
       .source("reference implementation chordatlas: 1 m");
-  list.number("step_height", o.step_height, "m", {0, 20},
-              "Roofs that differ by at least this height along a straight line make a sweep-edge; 0 makes none.")
-      .source("docs/decisions/0016");
-  list.number("step_length", o.step_length, "m", {0.5, 100}, "Minimum length of a roof step that makes a sweep-edge.")
-      .source("docs/decisions/0016");
   list.number("line_node_spacing", o.line_node_spacing, "m", {0.02, 10},
               "Spacing of the points at which a chain of segments may be cut into straight pieces.")
       .advanced("chosen by hand; not measured");
@@ -161,46 +156,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("eaves_spread", o.eaves_spread, "m", {0, 20},
               "Maximum spread of the overhang along a wall: the median distance from its median.")
       .advanced("docs/decisions/0115");
-  list.number("step_cell", o.step_cell, "m", {0.05, 5},
-              "Cell size of the grid of heights in which roof steps are looked for.")
-      .advanced("the cell of the paper's error measure");
-  list.number("step_noise", o.step_noise, "m", {0, 20}, "Minimum height of a jump in one row.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_roughness", o.step_roughness, "m", {0, 20},
-              "Maximum root mean square distance of the heights beside a jump from their slope; rougher surfaces are "
-              "foliage or chimneys.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_grain_turn", o.step_grain_turn, "rad", {0, 0.5},
-              "Maximum angle between footprint edges of one direction.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_grain_edge", o.step_grain_edge, "m", {0, 100},
-              "Minimum length of a footprint's edge that counts for a direction.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_grain_length", o.step_grain_length, "m", {0, 1000},
-              "Minimum total length of the footprint edges of one direction.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_band", o.step_band, "m", {0, 20}, "Maximum distance of a jump from the line of its roof step.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_gap", o.step_gap, "m", {0, 50}, "Maximum gap in a roof step.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_wide_gap", o.step_wide_gap, "m", {0, 100},
-              "Maximum gap in a roof step whose two parts jump in opposite directions.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_full_jump", o.step_full_jump, "m", {0.01, 50},
-              "Height above which a jump counts no more when roof steps are ranked.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_bend", o.step_bend, "m", {0, 20},
-              "Lateral movement between the ends of a roof step from which it may be turned from its direction.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_part", o.step_part, "m", {0, 100},
-              "Minimum length of a part of a roof step that jumps in one direction.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_reach", o.step_reach, "m", {0, 50},
-              "Maximum length by which a roof step is extended to the next wall or footprint's edge.")
-      .advanced("chosen by hand; not measured");
-  list.number("step_same_line", o.step_same_line, "m", {0, 20},
-              "A roof step within this distance of a wall or a footprint's edge is the same line.")
-      .advanced("chosen by hand; not measured");
   return list;
 }
 

@@ -20,8 +20,6 @@ struct Options {
   double low_height = 4.0;     ///< m above ground; lines below weigh a tenth (cars, hedges)
   double thin_distance = 4.0;  ///< m; lines lose weight for anti-parallel lines this near (buses, fences)
   double setback = 1.0;        ///< m; wall feet this far off the median become sweep-edges of their own
-  double step_height = 0.35;   ///< m; roofs that jump by this along a straight line make sweep-edges; 0: none do
-  double step_length = 2.5;    ///< m; … of this length
 
   // Lines in a slice.
   double line_node_spacing = 0.3;  ///< m; chains may be cut at nodes this far apart
@@ -154,41 +152,7 @@ struct Options {
   // Walls under eaves.
   double eaves_reach = 1.5;   ///< m inside of a footprint's edge: as far as footprints may be astray
   double eaves_spread = 0.3;  ///< m; median distance of the eaves' columns from their median
-
-  // Roof steps.
-  double step_cell = 0.25;  ///< m
-  /// Half width of a roof step's flank, in cells. Chosen by hand; not measured.
-  std::size_t step_near = 2;
-  /// Number of cell distances beside a roof step's flank over which the slope is fitted. Chosen by hand; not measured.
-  std::size_t step_side = 3;
-  /// Of two jumps within this number of cells only the higher one is kept. Chosen by hand; not measured.
-  std::size_t step_alone = 3;
-  /// Number of rows to both sides over which a jump is averaged. Chosen by hand; not measured.
-  std::size_t step_rows = 3;
-  /// Minimum number of rows with known heights in that average. Chosen by hand; not measured.
-  double step_minimum_rows = 4;
-  /// Minimum jump of a row, as a share of the mean over the rows around it. Chosen by hand; not measured.
-  double step_own_share = 1.0 / 3;
-  double step_noise = 0.2;         ///< m; a lower jump is noise
-  double step_roughness = 0.2;     ///< m; root mean square off the slope: foliage, chimneys
-  double step_ground = 2.0;        ///< m above ground; lower is no roof; no option: segment.min_height
-  double step_grain_turn = 0.06;   ///< rad; edges that differ by less, or by that from a right angle, run alike
-  double step_grain_edge = 1.0;    ///< m; shorter edges of a footprint tell no direction
-  double step_grain_length = 8.0;  ///< m of edge that make a direction
-  double step_band = 0.4;          ///< m; jumps this near a line are of one step
-  double step_gap = 1.25;          ///< m along it without a jump: noise, a chimney
-  double step_wide_gap = 4.0;      ///< m where two roofs cross each other: the step changes its sign there
-  /// Minimum share of a roof step's length with a jump. Chosen by hand; not measured.
-  double step_cover = 0.7;
-  double step_full_jump = 1.0;  ///< m; higher ones say no more
-  double step_bend = 0.2;       ///< m across, from end to end, from which a step may be turned from the grain …
-  /// Tangent of the maximum angle by which a roof step is turned from its direction. Chosen by hand; not measured.
-  double step_turn = 0.05;
-  double step_part = 1.5;        ///< m; of a line that jumps one way, to be believed
-  double step_reach = 1.5;       ///< m beyond its ends to the wall or outline it runs up to
-  double step_same_line = 0.75;  ///< m; a wall or a footprint's edge this near is the same line
-  /// Sine of the maximum angle between a roof step and a line that is the same. Chosen by hand; not measured.
-  double step_same_sine = 0.2;
+  double roof_height = 2.0;   ///< m above ground; lower is no roof; no option: segment.min_height
 };
 [[nodiscard]] auto option_list(Options& options) -> base::OptionList;
 

@@ -10,7 +10,6 @@
 #include "mansard/sweep/detail/lines.hpp"
 #include "mansard/sweep/detail/registration.hpp"
 #include "mansard/sweep/detail/selection.hpp"
-#include "mansard/sweep/detail/steps.hpp"
 
 namespace mansard::sweep {
 
@@ -45,18 +44,6 @@ auto find_edges(const slice::SliceStack& stack, const block::Block& block, const
 auto under_eaves(SweepEdges edges, const block::Block& block, const rays::Scene& mesh, const Options& options)
     -> SweepEdges {
   edges.edges = detail::moved_under_eaves(std::move(edges.edges), block, edges.registration, mesh, options);
-  detail::sort_longest_first(edges.edges);
-  return edges;
-}
-
-auto with_roof_steps(SweepEdges edges, const block::Block& block, const rays::Scene& mesh, const Options& options,
-                     const base::Run& run) -> SweepEdges {
-  if (options.step_height <= 0) return edges;
-  for (SweepEdge& step : detail::roof_steps(block, mesh, edges, options, run)) {
-    step.cluster = edges.clusters.size();
-    edges.clusters.push_back({{}, step.area});
-    edges.edges.push_back(step);
-  }
   detail::sort_longest_first(edges.edges);
   return edges;
 }

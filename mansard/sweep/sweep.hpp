@@ -26,18 +26,11 @@ struct Cluster {
   double area = 0;          ///< m²: sum of lengths × slice interval
 };
 
-enum class Evidence : std::uint8_t {
-  wall,       ///< slices of an upright surface
-  roof_step,  ///< a jump of the top surface inside the footprints
-};
-
 struct SweepEdge {
   geometry::Segment2 segment;  ///< plan position of the wall foot; outside on the left
   double area = 0;             ///< m² of mesh behind it
   double low = 0, high = 0;    ///< z between which the wall was seen, metres
-  std::size_t cluster = 0;     ///< index into SweepEdges::clusters; of a roof step, a cluster without lines
-  Evidence evidence = Evidence::wall;
-  double step = 0;  ///< m; mean height of a roof step beyond what the slopes beside it explain
+  std::size_t cluster = 0;     ///< index into SweepEdges::clusters
 };
 
 /// How the block's footprints lie beside the walls of the mesh.
@@ -63,12 +56,5 @@ struct SweepEdges {
 /// by more than `eaves_reach`. Cost: O(length of such walls · log n).
 [[nodiscard]] auto under_eaves(SweepEdges edges, const block::Block& block, const rays::Scene& mesh,
                                const Options& options) -> SweepEdges;
-
-/// The same edges, and those along which the top surface jumps inside the footprints, where neither a wall nor a
-/// footprint's edge runs already: steps between roofs, and changes from one roof to another. Guarantees: 1 walls keep
-/// their order, and every roof step is at least `step_height` high and `step_length` long · 2 edges are sorted longest
-/// first · 3 the same input gives the same answer at any thread count. Cost: O(area of the footprints · log n).
-[[nodiscard]] auto with_roof_steps(SweepEdges edges, const block::Block& block, const rays::Scene& mesh,
-                                   const Options& options, const base::Run& run = {}) -> SweepEdges;
 
 }  // namespace mansard::sweep

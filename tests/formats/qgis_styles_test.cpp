@@ -106,7 +106,7 @@ auto segment_layers() -> std::vector<Layer> {
   const std::vector<std::vector<Point2>> line{{{0, 0}, {1, 0}}};
   const auto square = rectangle(0, 0, 1, 1);
   return {
-      {"sweep_edges", "", Shape::line, {{"evidence"}}, {{line, {}, {std::string("roof step")}}}},
+      {"sweep_edges", "", Shape::line, {{"block"}}, {{line, {}, {std::string("block")}}}},
       {"faces", "", Shape::polygon, {{"inside", FieldType::boolean}}, {{{}, {square}, {true}}}},
       {"edges", "", Shape::lines, {{"chosen", FieldType::boolean}}, {{line, {}, {false}}}},
       {"conflicts", "", Shape::lines, {{"paid", FieldType::boolean}}, {{line, {}, {true}}}},
@@ -190,7 +190,6 @@ TEST_F(QgisStyles, know_every_class_and_every_outcome_that_is_written) {
                                                                       {"roof_planes", "class"},
                                                                       {"walls", "class"},
                                                                       {"edges", "party"},
-                                                                      {"sweep_edges", "evidence"},
                                                                       {"faces", "inside"},
                                                                       {"segment_edges", "chosen"},
                                                                       {"conflicts", "paid"},

@@ -119,13 +119,6 @@ a---+---b
   EXPECT_THAT(a.vertices, SizeIs(9));
 }
 
-TEST(Arrange, carries_a_cut_with_a_continuation_of_its_own_that_far) {
-  const std::vector<Cut> cuts{{{{5, 0}, {5, 6}}, 0}, {{{0, 3}, {3, 3}}, 1, 0.0}, {{{0, 1}, {4, 1}}, 2}};
-  const auto a = arranged(cuts, box(10, 6), flush(2));
-  EXPECT_DOUBLE_EQ(length_of(a, Kind::continuation, 1), 2) << "to the next edge";
-  EXPECT_DOUBLE_EQ(length_of(a, Kind::continuation, 2), 6) << "2 m, across that edge, then on to the border";
-}
-
 TEST(Arrange, carries_a_cut_on_beyond_the_first_edge_while_its_continuation_lasts) {
   const auto plan = R"(
 a---------b

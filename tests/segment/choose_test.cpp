@@ -370,7 +370,7 @@ TEST(Options, list_every_member_once_with_its_default) {
   Options options;
   const base::OptionList list = option_list(options);
   EXPECT_EQ(list.module(), "segment");
-  EXPECT_EQ(std::ranges::count(list.options(), false, &base::Option::advanced), 22);
+  EXPECT_EQ(std::ranges::count(list.options(), false, &base::Option::advanced), 21);
   std::set<std::string> names;
   for (const auto& option : list.options()) names.insert(option.name);
   EXPECT_EQ(names.size(), list.options().size());

@@ -42,20 +42,6 @@ TEST(Cuts, are_the_sweep_edges_in_their_order_and_then_the_party_walls) {
   EXPECT_EQ(cuts_of(edges, block, paper).size(), 3U);
 }
 
-TEST(Cuts, of_roof_steps_come_last_and_do_not_go_on) {
-  sweep::SweepEdges edges;
-  edges.edges = {{{{0, 1}, {12, 1}}, 6, 5, 6, 0}, {{{0, 8}, {0, 0}}, 40, 0, 5, 0}};
-  edges.edges[0].evidence = sweep::Evidence::roof_step;
-  block::Block block;
-  block.members = {member(0, rectangle(0, 0, 12, 8))};
-  const auto cuts = cuts_of(edges, block, {});
-  ASSERT_EQ(cuts.size(), 5U) << "the step stands for no wall: three sides of the footprint are torn";
-  EXPECT_EQ(cuts.front().source, 1U);
-  EXPECT_FALSE(cuts.front().continuation);
-  EXPECT_EQ(cuts.back().source, 0U);
-  EXPECT_EQ(cuts.back().continuation, 0.0);
-}
-
 TEST(PartyLines, find_party_walls_that_do_not_quite_touch_once) {
   block::Block block;
   block.members = {member(0, rectangle(0, 0, 6, 10)), member(1, rectangle(6.15, -2, 5, 20))};

@@ -63,30 +63,6 @@ TEST(GisCandidate, pays_by_the_sweep_edge_where_both_run) {
   EXPECT_NEAR(s.candidates[0].costs.sum(Paid::uncut), c.options.alpha * 10, 1e-6);
 }
 
-TEST(RoofStep, pays_alpha_by_its_height_when_left_unused) {
-  AsciiMap map({"AABB", "AABB"});
-  map.wall({10, 0}, {10, 10}, 0);
-  const rays::Scene mesh(map.roofs({{'A', 10}, {'B', 10}}));
-  sweep::SweepEdges edges = sweep_edges(1);
-  edges.edges[0].evidence = sweep::Evidence::roof_step;
-  const auto pays = [&](double step, double full) {
-    edges.edges[0].step = step;
-    Options options;
-    options.step_full = full;
-    const auto s = choose(map.arrangement, edges, map.block({"AB"}), mesh, options).value();
-    expect_guarantees(map.arrangement, s);
-    EXPECT_TRUE(s.candidates[0].sweep);
-    EXPECT_EQ(s.parts.size(), 2U);
-    EXPECT_EQ(s.candidates[0].costs.sum(Paid::cut), 0) << "it is supported, however low";
-    return s.candidates[0].costs[Term::sweep_unused] / options.alpha;
-  };
-  EXPECT_NEAR(pays(0.5, 1), 5, 1e-9);
-  EXPECT_NEAR(pays(1.0, 1), 10, 1e-9);
-  EXPECT_NEAR(pays(3.0, 1), 10, 1e-9);
-  EXPECT_NEAR(pays(0.5, 2), 2.5, 1e-9);
-  EXPECT_NEAR(pays(0.5, 0), 10, 1e-9);
-}
-
 TEST(HeightMeasure, sees_the_step_at_the_edge_which_medians_do_not) {
   // A: 12 12 10 10 8 8, B: 14 14 12 12 10 10 – a step of 6 m at the edge, medians 10 and 12.
   const AsciiMap map(std::vector<std::string>(4, "AAAAAABBBBBB"), 1);

@@ -274,7 +274,7 @@ TEST(FindEdges, reports_its_progress_in_order) {
 TEST(SweepOptions, are_listed_with_their_defaults) {
   Options options;
   const auto list = option_list(options);
-  EXPECT_EQ(std::ranges::count(list.options(), false, &base::Option::advanced), 13);
+  EXPECT_EQ(std::ranges::count(list.options(), false, &base::Option::advanced), 11);
   EXPECT_EQ(list.find("gamma")->get(), "10");
   EXPECT_EQ(list.find("gamma")->alias, "gamma");
   EXPECT_TRUE(list.find("gamma")->set("30"));

@@ -141,13 +141,12 @@ void rooms_in_plan(const Figures& to, const model::Scene& scene, const pipeline:
   }
   to.put("slice.svg", slices.svg());
 
-  const auto edges = sweep::with_roof_steps(sweep::find_edges(stack, block, options.sweep), block, mesh, options.sweep);
+  const auto edges = sweep::find_edges(stack, block, options.sweep);
   Drawing sweeps(frame, 760);
   footprints(sweeps);
   for (const auto& edge : edges.edges)
     sweeps.line({edge.segment.start, edge.segment.end},
-                std::string("stroke:") + (edge.evidence == sweep::Evidence::wall ? "#23589c" : "#b03030") +
-                    ";stroke-width:" + base::to_text(1.2 + std::min(4.0, edge.area / 30), 1));
+                "stroke:#23589c;stroke-width:" + base::to_text(1.2 + std::min(4.0, edge.area / 30), 1));
   to.put("sweep.svg", sweeps.svg());
 
   const auto cuts = segment::cuts_of(edges, block, options.segment);

@@ -81,10 +81,7 @@ constexpr std::array walls{
 // Seen from above, the faces of a solid are drawn over each other.
 constexpr std::array solids{Case{nullptr, "Solid", {of(model::FaceClass::roof, 60), of(model::FaceClass::wall), 0.2}}};
 constexpr std::array grounds{Case{nullptr, "Ground", {of(model::FaceClass::ground, 140), ink, 0.2}}};
-constexpr std::array evidence{
-    Case{"wall", "Wall", {none, blue, 0.4}},
-    Case{"roof step", "Roof step", {none, amber, 0.4}},
-};
+constexpr std::array sweep_edges{Case{nullptr, "Wall", {none, blue, 0.4}}};
 constexpr std::array inside{
     Case{"true", "Inside", {thin(blue, 40), pale, 0.15}},
     Case{"false", "Outside", {none, pale, 0.15}},
@@ -138,7 +135,7 @@ constexpr std::array styles{
     LayerStyle{"ground_lod13", nullptr, "Ground of the solids of LoD 1.3", grounds},
     LayerStyle{"ground_lod20", nullptr, "Ground of the solids of LoD 2.0", grounds},
     LayerStyle{"ground_lod22", nullptr, "Ground of the solids of LoD 2.2", grounds},
-    LayerStyle{"sweep_edges", "evidence", "Edges by what they were seen by", evidence},
+    LayerStyle{"sweep_edges", nullptr, "Walls in the scan", sweep_edges},
     LayerStyle{"faces", "inside", "Faces by whether they are inside", inside},
     LayerStyle{"conflicts", "paid", "Bad pairs by whether both were cut", paid},
     LayerStyle{"diagnostics", "severity", "Diagnostics by severity", severity},

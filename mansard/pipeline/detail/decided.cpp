@@ -36,10 +36,10 @@ auto refining_of(const Options& options, const model::Accuracy& scan) -> refine:
 
 auto decided_by(Options o, const model::Accuracy& scan) -> Options {
   o.sweep = sweep::decided_by(o.sweep, scan);
-  o.sweep.step_ground = o.segment.min_height;  // what is no building has no roof
   o.fracture.snap = snap_of(o.fracture, scan);
   // As near to a boundary, a sample may be of either side of the wall there. Without noise a mesh's own edges are those
   // of the surface, however large its triangles are.
+  o.sweep.roof_height = o.segment.min_height;  // what is no building has no roof
   o.segment.by_points = scan.point_area > 0;
   if (o.segment.by_points) o.segment.rim = scan.spacing / 2;  // a wall is anywhere between two points
   else o.segment.rim = scan.edge() + scan.spacing / 2 * std::min(1.0, scan.noise / o.refine.detail);

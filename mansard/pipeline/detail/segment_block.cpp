@@ -55,7 +55,7 @@ auto segment_block(const block::Block& block, const rays::Scene& mesh, const Opt
     // What measures eaves has to have the walls below them.
     if (options.profile.overhangs == profile::Overhangs::off)
       edges = sweep::under_eaves(std::move(edges), block, mesh, options.sweep);
-    return sweep::with_roof_steps(std::move(edges), block, mesh, options.sweep, run);
+    return edges;
   });
   auto arrangement = stage("fracture", tell, report, [&] {
     return fracture::arrange(segment::cuts_of(sweeps, block, options.segment), region_of(block), options.fracture, run);

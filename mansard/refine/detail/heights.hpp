@@ -29,11 +29,11 @@ struct Heights {
   [[nodiscard]] auto at(std::size_t column, std::size_t row) const -> double { return z[row * columns + column]; }
 };
 
-/// The points of a scan that consists of points, and what they lie on.
+/// Samples, and what they lie on.
 struct OnPlanes {
   std::span<const geometry::Point2> places;
   std::span<const std::uint32_t> planes;  ///< of each: a number of a plane, or one of planes::Found
-  std::span<const double> heights{};      ///< of each; m above the base
+  std::span<const double> heights;        ///< of each; m above the base
   double area = 0;                        ///< m²: the ground of one
 };
 

@@ -177,7 +177,7 @@ auto move_of(std::vector<Beside> samples, double length, double area, const Opti
   std::optional<Sides> sides;
   constexpr int rounds = 3;  // what is read clear of the side is another after it moved
   for (int round = 0; round < rounds; ++round) {
-    const double at = found.at, clear = round == 0 ? std::max(melt, most_move / 2) : melt;
+    const double at = found.at, clear = round == 0 ? most_move / 2 + melt : melt;
     const auto inner = plane_through(samples, at + clear, at + clear + read, noise, fewest),
                outer = plane_through(samples, at - clear - read, at - clear, noise, fewest);
     if (!inner || !outer) return std::nullopt;

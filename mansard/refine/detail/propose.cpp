@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "mansard/planes/planes.hpp"
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
 #include "mansard/refine/detail/place.hpp"
@@ -24,7 +25,7 @@ using Mask = std::vector<std::uint8_t>;
 struct Cut {
   Polygon polygon;
   carve::Frame frame;
-  int shape = 0;  ///< 0 a line across, else how many rectangles
+  bool line = false;  ///< across the part; else an outline
   bool step = true;
   Mask mask;
   carve::Errors errors;
@@ -44,18 +45,19 @@ class Cuts {
   Cuts(const carve::Raster& raster, double part_area, double least_gain, const Options& options)
       : raster_(raster), area_(part_area), least_gain_(least_gain), options_(options) {}
 
-  void consider(const Polygon& polygon, const carve::Frame& frame, int shape, bool step) {
+  void consider(const Polygon& polygon, const carve::Frame& frame, bool line, bool step) {
     const auto& o = options_.cuts;
     const double piece = geometry::area(polygon);
     if (piece < options_.cuts.min_area || area_ - piece < options_.cuts.min_area) return;
-    if (shape > 0 && mean_width(polygon, frame) < o.min_width) return;
-    Cut cut{polygon, frame, shape, step, carve::cells_in(polygon, raster_), {}, 0, 0};
+    if (!line && mean_width(polygon, frame) < o.min_width) return;
+    Cut cut{polygon, frame, line, step, carve::cells_in(polygon, raster_), {}, 0, 0};
+    if (!line && is_rim_around(cut.mask)) return;
     cut.errors = carve::errors_of(raster_, cut.mask, frame, options_.surfaces);
     const double gain = carve::gain_of(cut.errors, options_.surfaces);
     cut.gain = gain * raster_.cell_area();
     if (!(cut.gain >= least_gain_)) return;
-    if (shape == 0 && gain < o.line_gain * cut.errors.whole.best) return;
-    cut.ranked = cut.gain * (1 - o.shape_price * shape);
+    if (line && gain < o.line_gain * cut.errors.whole.best) return;
+    cut.ranked = line ? cut.gain : cut.gain * (1 - o.outline_price);
     found_.push_back(std::move(cut));
   }
 
@@ -73,6 +75,14 @@ class Cuts {
   }
 
  private:
+  /// Whether what is left of the part is narrower than a structure: the rim of an outline that is a little too large.
+  [[nodiscard]] auto is_rim_around(const Mask& piece) const -> bool {
+    Mask rest(piece.size());
+    for (std::size_t k = 0; k < rest.size(); ++k)
+      rest[k] = raster_.state[k] != carve::Cell::outside && !piece[k] ? 1 : 0;
+    return std::ranges::count(carve::shrunk(raster_, rest, options_.cuts.min_width / 2), 1) == 0;
+  }
+
   /// A piece and the rest around it are one cut; it is as large as the smaller of the two.
   [[nodiscard]] auto same(const Cut& a, const Cut& b) const -> bool {
     std::size_t in_a = 0, in_b = 0, crossed = 0, cells = 0;
@@ -126,44 +136,20 @@ void consider_lines(const Polygon& part, const carve::Raster& raster, bool acros
     // What a line shaves off as a thin strip is the rim of an outline that is a little too large.
     if (sides[0].empty() || sides[1].empty()) continue;
     for (const auto& side : sides)
-      for (const Polygon& piece : side) cuts.consider(piece, raster.frame, 0, line.step);
+      for (const Polygon& piece : side) cuts.consider(piece, raster.frame, true, line.step);
   }
 }
 
 void consider_regions(const Polygon& part, const carve::Raster& raster, const carve::Raster& turned,
-                      const std::vector<carve::Region>& regions, const Options& options, Cuts& cuts,
-                      std::vector<carve::Frame>& directions) {
+                      const std::vector<carve::Region>& regions, const Options& options, Cuts& cuts) {
   for (const carve::Region& region : regions) {
-    int shape = 0;
-    for (const Polygon& outline : carve::outlines_of(raster, turned, region, options)) {
-      const auto pieces = carve::pieces_in_part(part, outline, raster.frame, options.pieces);
-      ++shape;
-      if (!pieces.empty()) cuts.consider(pieces.front(), raster.frame, shape, true);
+    for (const auto& outline :
+         {carve::outline_of(raster, turned, region, options), carve::askew_outline_of(raster, region, options)}) {
+      if (!outline) continue;
+      const auto pieces = carve::pieces_in_part(part, *outline, raster.frame, options.pieces);
+      if (!pieces.empty()) cuts.consider(pieces.front(), raster.frame, false, true);
     }
-    carve::Frame own;
-    if (std::ssize(directions) >= options.cuts.max_directions) continue;
-    if (!carve::own_direction(raster, region, options.regions, own)) continue;
-    if (std::ranges::all_of(directions,
-                            [&](const auto& d) { return carve::turn_between(d, own) > options.cuts.new_direction; }))
-      directions.push_back(own);
   }
-}
-
-/// The piece with the slivers that it would leave, where that keeps it simple.
-auto without_slivers(const Polygon& part, Polygon piece, const Options& all) -> Polygon {
-  const auto& options = all.cuts;
-  const auto [whole, taken] = fitted(part, piece, all.pieces);
-  const auto rest = geometry::subtract(whole, taken);
-  if (!rest) return piece;
-  std::vector<Polygon> together{taken};
-  for (const Polygon& r : *rest) {
-    const double area = geometry::area(r);
-    if (area < options.sliver_area || 2 * area < options.sliver_width * geometry::perimeter(r.outer))
-      together.push_back(r);
-  }
-  if (together.size() == 1) return piece;
-  auto united = geometry::unite(together);
-  return united && united->size() == 1 ? std::move(united->front()) : piece;
 }
 
 /// With the part's own corners where it has some, and no corner twice or on a straight line but those.
@@ -250,13 +236,36 @@ auto rise_of(const carve::Raster& raster, const Mask& mask, const Options& optio
 }
 
 auto words_for(const carve::Raster& raster, const Cut& cut, const Options& options) -> std::string {
-  const bool line = cut.shape == 0;
-  if (line && !cut.step) return "another roof on either side of a line across";
-  const std::string beside = line ? "the other side of a line across" : "the roof around it";
+  if (cut.line && !cut.step) return "another roof on either side of a line across";
+  const std::string beside = cut.line ? "the other side of a line across" : "the roof around it";
   const auto rise = rise_of(raster, cut.mask, options);
   if (!rise || std::abs(*rise) < options.cuts.min_rise) return "a roof of its own beside " + beside;
   return *rise > 0 ? "stands " + metres(*rise) + " above " + beside : "lies " + metres(-*rise) + " below " + beside;
 }
+
+/// The cells of a part, as samples of the planes that they are on.
+class CellsOnPlanes {
+ public:
+  CellsOnPlanes(const Polygon& part, const Heights& measured, const Options& options)
+      : area_(measured.spacing * measured.spacing) {
+    std::vector<geometry::Point3> samples;
+    for (std::size_t k = 0; k < measured.z.size(); ++k) {
+      const geometry::Point2 at = measured.centre(k);
+      if (std::isnan(measured.z[k]) || !geometry::contains(part, at)) continue;
+      samples.push_back({at.x, at.y, measured.z[k]});
+      places_.push_back(at);
+      heights_.push_back(measured.z[k]);
+    }
+    planes_ = planes::find(samples, {.noise = options.samples.noise, .point_area = area_}).plane_of;
+  }
+  [[nodiscard]] auto samples() const -> OnPlanes { return {places_, planes_, heights_, area_}; }
+
+ private:
+  std::vector<geometry::Point2> places_;
+  std::vector<std::uint32_t> planes_;
+  std::vector<double> heights_;
+  double area_;
+};
 
 /// Every so many cells of a fine grid.
 auto thinned(const Heights& heights, std::size_t every) -> Heights {
@@ -282,7 +291,7 @@ auto at_steps(const Polygon& part, const Polygon& piece, const Heights& measured
     if (inside.empty()) return std::nullopt;
     at_step = std::move(inside.front());
   }
-  Polygon out = with_corners_of(part, without_slivers(part, std::move(at_step), options), options.pieces.slit);
+  Polygon out = with_corners_of(part, at_step, options.pieces.slit);
   out = inside_of(part, std::move(out));
   return sound(part, out, options) ? std::optional(std::move(out)) : std::nullopt;
 }
@@ -310,29 +319,25 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   if (measured.z.size() != cells || model.z.size() != cells) return {};
   const double in_part = geometry::area(part) / (measured.spacing * measured.spacing);
   const auto every = static_cast<std::size_t>(std::ceil(std::sqrt(std::max(1.0, in_part / options.cuts.max_cells))));
-  const auto seen_along = [&](const Heights& heights, const Heights& of_model, const carve::Frame& frame) {
-    auto raster = carve::raster_of(part, heights, of_model, frame, options.directions);
-    carve::leave_out_strays(raster, options);
-    return raster;
-  };
-  const carve::Raster as_measured = seen_along(thinned(measured, every), thinned(model, every), {});
+  const carve::Raster as_measured =
+      carve::raster_of(part, thinned(measured, every), thinned(model, every), {}, options.directions);
   Cuts cuts(as_measured, geometry::area(part), least_gain, options);
-  std::vector<carve::Frame> directions = carve::directions_of(part, options.directions);
-  for (std::size_t d = 0; d < directions.size(); ++d) {
-    const carve::Raster raster = seen_along(measured, model, directions[d]);
-    const carve::Raster turned = carve::turned(raster);
-    const auto regions = points.places.empty() ? carve::regions_of(raster, options)
-                                               : carve::regions_of_planes(raster, points, least_gain, options);
-    consider_regions(part, raster, turned, regions, options, cuts, directions);
-    consider_lines(part, raster, false, least_gain, options, cuts);
-    consider_lines(part, turned, true, least_gain, options, cuts);
-  }
+  const carve::Raster raster =
+      carve::raster_of(part, measured, model, carve::direction_of(part, options.directions), options.directions);
+  const carve::Raster turned = carve::turned(raster);
+  consider_regions(part, raster, turned, carve::regions_of(raster, options), options, cuts);
+  std::optional<CellsOnPlanes> cells_on_planes;
+  if (points.places.empty()) cells_on_planes.emplace(part, measured, options);
+  const OnPlanes samples = cells_on_planes ? cells_on_planes->samples() : points;
+  consider_regions(part, raster, turned, carve::regions_of_planes(raster, samples, least_gain, options), options, cuts);
+  consider_lines(part, raster, false, least_gain, options, cuts);
+  consider_lines(part, turned, true, least_gain, options, cuts);
   std::vector<Proposal> out;
   for (Cut& cut : std::move(cuts).best()) {
     auto piece = at_steps(part, cut.polygon, measured, points, options);
     if (!piece || std::ranges::any_of(out, [&](const Proposal& o) { return are_one(o.polygon, *piece); })) continue;
     std::string what = words_for(as_measured, cut, options);
-    out.push_back({std::move(*piece), cut.gain, cut.errors.inside_mean, std::move(what), cut.shape == 0});
+    out.push_back({std::move(*piece), cut.gain, std::move(what), cut.line});
   }
   rank(
       out, [](const Proposal& proposal) { return -proposal.gain; }, options.same_cost);

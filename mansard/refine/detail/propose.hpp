@@ -16,14 +16,13 @@ namespace mansard::refine::detail {
 struct Proposal {
   geometry::Polygon polygon;  ///< metres; in the part, simple; holes only where the part has holes
   double gain = 0;            ///< m²·m²: squared residual, by area, that simple surfaces in the pieces would explain
-  double height = 0;          ///< m, measured less model, mean over the piece
   std::string what;           ///< for the reader: "stands 2.4 m above the roof around it"
   bool whole_side = false;    ///< one straight line across the part; the piece is one side of it
   bool rim = false;           ///< the rest is a strip around the piece
 };
 
-/// A piece of a part with its free sides where the scan has them (place.hpp), without the slivers that it would leave,
-/// and with the part's own corners. None where polygon operations cannot tell the two apart, or too little is left.
+/// A piece of a part with its free sides where the scan has them (place.hpp), and with
+/// the part's own corners. None where polygon operations cannot tell the two apart, or too little is left.
 [[nodiscard]] auto at_steps(const geometry::Polygon& part, const geometry::Polygon& piece, const Heights& measured,
                             const OnPlanes& points, const Options& options) -> std::optional<geometry::Polygon>;
 
@@ -31,10 +30,11 @@ struct Proposal {
 ///   1. Every polygon lies in the part, is simple, and leaves at least `least_area` on either side.
 ///   2. No two are nearly the same cut.
 ///   3. The same input gives the same list, to the byte.
-/// Cost: cells × directions (two or three), with small constants.
+/// Cost: O(n log n) in the cells.
 /// Measured and model share one grid; cells that are NaN in either count for nothing. `least_gain`, m²·m²: squared
 /// residual, summed over area, that a cut must explain.
-/// With points, what stands out is what lies on a plane of theirs.
+/// `points`: those of a scan that consists of points, with the planes that they are on; else the cells are put on
+/// planes.
 [[nodiscard]] auto propose(const geometry::Polygon& part, const Heights& measured, const Heights& model,
                            double least_gain, const Options& options, const OnPlanes& points = {})
     -> std::vector<Proposal>;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "mansard/geometry/fit.hpp"
+#include "mansard/geometry/extent.hpp"
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
 
@@ -18,6 +18,11 @@ using geometry::Polygon;
 /// shares, exact to 1e-10; a coordinate below 1e4 m is exact to 1e-12 m. Of boxes that are equal up to it the first is
 /// taken; sides that are equal up to it touch.
 constexpr double rounding = 1e-9;
+
+/// Along the raster's axes, metres.
+struct Rectangle {
+  Point2 least, most;
+};
 
 /// Cell worths over a region's box, several cells to one.
 struct Worths {
@@ -87,38 +92,6 @@ auto rectangle_of(const Raster& raster, const Worths& w, const CellBox& box) -> 
   return {{x(box.left), y(box.bottom)}, {x(box.right), y(box.top)}};
 }
 
-/// Reaching into the other where only a wall's melt parts them.
-void joined(Rectangle& a, const Rectangle& b, double near) {
-  const auto reaching = [near](double& least, double& most, double other_least, double other_most) {
-    const double middle = (other_least + other_most) / 2;
-    if (least >= other_most - rounding && least - other_most < near) least = middle;
-    if (most <= other_least + rounding && other_least - most < near) most = middle;
-  };
-  const bool beside = a.least.y < b.most.y && b.least.y < a.most.y, over = a.least.x < b.most.x && b.least.x < a.most.x;
-  if (beside && !over) reaching(a.least.x, a.most.x, b.least.x, b.most.x);
-  if (over && !beside) reaching(a.least.y, a.most.y, b.least.y, b.most.y);
-}
-
-auto rectangles_of(const Raster& raster, const Region& region, const Options& options) -> std::vector<Rectangle> {
-  const auto& o = options.outlines;
-  Worths worths = worths_of(raster, region, options);
-  const double least_sum = std::max(o.min_area_share * options.cuts.min_area / raster.cell_area(),
-                                    o.min_addition * static_cast<double>(region.cells));
-  std::vector<Rectangle> out;
-  for (std::int64_t round = 0; round < o.max_rectangles; ++round) {
-    const CellBox box = best_box(worths);
-    if (box.sum < least_sum) break;
-    for (int j = box.bottom; j < box.top; ++j)
-      for (int i = box.left; i < box.right; ++i) worths.at(i, j) = 0;
-    Rectangle rectangle = rectangle_of(raster, worths, box);
-    const Point2 size = rectangle.most - rectangle.least;
-    if (std::min(size.x, size.y) < o.min_width_share * options.cuts.min_width) continue;
-    for (const Rectangle& before : out) joined(rectangle, before, o.near_edge);
-    out.push_back(rectangle);
-  }
-  return out;
-}
-
 auto row_of(const Raster& raster, double y) -> int {
   return std::clamp(static_cast<int>(std::ceil((y - raster.least.y) / raster.spacing)), 0, raster.rows);
 }
@@ -155,126 +128,28 @@ auto pushed(const Raster& raster, double at, int way, const std::vector<int>& ro
   return at + way * (farthest + 2 * raster.spacing);
 }
 
-/// Rows of a side whose outer face is free of the other rectangles, less its ends where corners melt.
-auto free_rows(const Raster& raster, double at, int way, std::size_t self, const std::vector<Rectangle>& all,
-               const Options& options) -> std::vector<int> {
-  const double melted = options.samples.melt;
-  const Rectangle& own = all[self];
-  const double trim = own.most.y - own.least.y > 4 * melted ? melted : 0;
+/// The rows along a rectangle's sides, less its ends where corners melt.
+auto rows_of(const Raster& raster, const Rectangle& of, const Options& options) -> std::vector<int> {
+  const double melted = options.samples.melt, trim = of.most.y - of.least.y > 4 * melted ? melted : 0;
   std::vector<int> out;
-  for (int row = row_of(raster, own.least.y + trim); row < row_of(raster, own.most.y - trim); ++row) {
-    const double x = at + way * melted, y = raster.y(row);
-    const bool covered = std::ranges::any_of(all, [&](const Rectangle& o) {
-      return &o != &own && x > o.least.x && x < o.most.x && y > o.least.y && y < o.most.y;
-    });
-    if (!covered) out.push_back(row);
-  }
+  for (int row = row_of(raster, of.least.y + trim); row < row_of(raster, of.most.y - trim); ++row) out.push_back(row);
   return out;
 }
 
-/// Both sides of each rectangle that face along x.
-void settle(const Raster& raster, std::vector<Rectangle>& all, bool finally, const Options& options) {
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (const int way : {-1, 1}) {
-      double& at = way < 0 ? all[i].least.x : all[i].most.x;
-      const std::vector<int> rows = free_rows(raster, at, way, i, all, options);
-      if (rows.empty()) continue;
-      if (!finally) at = step_near(raster, at, rows, options);
-      else if (const auto out = pushed(raster, at, way, rows, options.outlines)) at = *out;
-      else at = aligned(raster, at, raster.y(rows.front()), raster.y(rows.back()), options.outlines);
-    }
-}
-
-auto exchanged(std::vector<Rectangle> all) -> std::vector<Rectangle> {
-  for (Rectangle& r : all) r = {{r.least.y, r.least.x}, {r.most.y, r.most.x}};
-  return all;
-}
-
-/// Sides that nearly go on in one line do.
-void lined_up(std::vector<Rectangle>& all, double near) {
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t j = i + 1; j < all.size(); ++j)
-      for (const auto& side : {&Rectangle::least, &Rectangle::most})
-        for (const auto& axis : {&Point2::x, &Point2::y})
-          if (std::abs(all[i].*side.*axis - all[j].*side.*axis) < near) all[j].*side.*axis = all[i].*side.*axis;
-}
-
-auto polygon_of(const std::vector<Rectangle>& all, double melted) -> std::optional<Polygon> {
-  std::vector<Polygon> parts;
-  for (const Rectangle& r : all) {
-    if (r.most.x - r.least.x < melted || r.most.y - r.least.y < melted) continue;
-    parts.push_back({{r.least, {r.most.x, r.least.y}, r.most, {r.least.x, r.most.y}}, {}});
+/// Both sides that face along x.
+void settle(const Raster& raster, Rectangle& rectangle, const Options& options) {
+  const std::vector<int> rows = rows_of(raster, rectangle, options);
+  if (rows.empty()) return;
+  for (const int way : {-1, 1}) {
+    double& at = way < 0 ? rectangle.least.x : rectangle.most.x;
+    if (const auto out = pushed(raster, at, way, rows, options.outlines)) at = *out;
+    else at = aligned(raster, at, raster.y(rows.front()), raster.y(rows.back()), options.outlines);
   }
-  if (parts.size() == 1) return parts.front();
-  auto united = geometry::unite(parts);
-  if (!united || united->size() != 1) return std::nullopt;
-  return std::move(united->front());
 }
 
-/// Mean residual of some rows at one column.
-struct Place {
-  double x = 0, level = 0;  // m
-};
-
-/// Columns around a place in which enough of the rows were seen.
-auto profile_near(const Raster& raster, double at, const std::vector<int>& rows, const Options& all)
-    -> std::vector<Place> {
-  const auto& options = all.outlines;
-  const int centre = static_cast<int>(std::lround((at - raster.least.x) / raster.spacing));
-  const int span = static_cast<int>(std::ceil((reach_beside(all) + options.max_move) / raster.spacing));
-  std::vector<Place> out;
-  for (int i = std::max(0, centre - span); i < std::min(raster.columns, centre + span + 1); ++i) {
-    double sum = 0, count = 0;
-    for (const int row : rows) {
-      const std::size_t k = raster.at(i, row);
-      if (raster.state[k] != Cell::seen) continue;
-      sum += raster.residual[k];
-      count += 1;
-    }
-    if (count > 0 && count >= options.row_share * static_cast<double>(rows.size()))
-      out.push_back({raster.x(i), sum / count});
-  }
-  return out;
-}
-
-/// The level at which a roof on one side of a wall meets it, by the line through what is clear of the wall's melt.
-auto level_beside(const std::vector<Place>& profile, double wall, int way, const Options& options)
-    -> std::optional<double> {
-  geometry::LineSums sums;
-  for (const Place& place : profile) {
-    const double d = way * (place.x - wall);
-    if (d < options.samples.melt || d > reach_beside(options)) continue;
-    sums.add(d, place.level);
-  }
-  if (sums.weight < 2) return std::nullopt;
-  const double slope = sums.weight > 2 ? sums.joint() / sums.spread() : 0;
-  return std::abs(slope) > options.surfaces.max_slope ? sums.z / sums.weight : sums.line(slope).at_zero;
-}
+auto exchanged(const Rectangle& r) -> Rectangle { return {{r.least.y, r.least.x}, {r.most.y, r.most.x}}; }
 
 }  // namespace
-
-auto step_near(const Raster& raster, double at, const std::vector<int>& rows, const Options& options) -> double {
-  const auto& o = options.outlines;
-  const std::vector<Place> profile = profile_near(raster, at, rows, options);
-  const double start = at;
-  for (std::int64_t round = 0; round < o.step_rounds; ++round) {
-    const auto low = level_beside(profile, at, -1, options), high = level_beside(profile, at, 1, options);
-    if (!low || !high || std::abs(*high - *low) < o.min_contrast) return at;
-    const double middle = (*low + *high) / 2, way = *high > *low ? 1 : -1;
-    std::optional<double> best;
-    for (std::size_t c = 0; c + 1 < profile.size(); ++c) {
-      const Place &here = profile[c], &next = profile[c + 1];
-      const double a = way * (here.level - middle), b = way * (next.level - middle);
-      if (a > 0 || b <= 0 || next.x - here.x > 1.5 * raster.spacing) continue;  // a column between them is missing
-      const double crossing = here.x + (next.x - here.x) * a / (a - b);
-      if (std::abs(crossing - start) > o.max_move) continue;
-      if (!best || std::abs(crossing - at) < std::abs(*best - at)) best = crossing;
-    }
-    if (!best) return at;
-    at = *best;
-  }
-  return at;
-}
 
 auto aligned(const Raster& raster, double at, double from, double to, const Options::Outlines& o) -> double {
   double best = at, best_distance = o.near_edge;
@@ -295,23 +170,40 @@ auto aligned(const Raster& raster, double at, double from, double to, const Opti
   return best;
 }
 
-auto outlines_of(const Raster& raster, const Raster& across, const Region& region, const Options& options)
-    -> std::vector<Polygon> {
-  const std::vector<Rectangle> all = rectangles_of(raster, region, options);
-  std::vector<Polygon> out;
-  for (std::size_t count = 1; count <= all.size(); ++count) {
-    std::vector<Rectangle> some(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
-    for (std::int64_t round = 0; round <= options.outlines.settle_rounds; ++round) {
-      const bool finally = round == options.outlines.settle_rounds;
-      settle(raster, some, finally, options);
-      some = exchanged(std::move(some));
-      settle(across, some, finally, options);
-      some = exchanged(std::move(some));
-      if (!finally) lined_up(some, options.outlines.near_edge);
+auto outline_of(const Raster& raster, const Raster& across, const Region& region, const Options& options)
+    -> std::optional<Polygon> {
+  const auto& o = options.outlines;
+  Worths worths = worths_of(raster, region, options);
+  const CellBox box = best_box(worths);
+  if (box.sum < o.min_area_share * options.cuts.min_area / raster.cell_area()) return std::nullopt;
+  Rectangle r = rectangle_of(raster, worths, box);
+  const auto narrower = [&](double width) { return std::min(r.most.x - r.least.x, r.most.y - r.least.y) < width; };
+  if (narrower(o.min_width_share * options.cuts.min_width)) return std::nullopt;
+  settle(raster, r, options);
+  r = exchanged(r);
+  settle(across, r, options);
+  r = exchanged(r);
+  if (narrower(options.samples.melt)) return std::nullopt;
+  return Polygon{{r.least, {r.most.x, r.least.y}, r.most, {r.least.x, r.most.y}}, {}};
+}
+
+auto askew_outline_of(const Raster& raster, const Region& region, const Options& options) -> std::optional<Polygon> {
+  const auto fills = [&](double area) {
+    return static_cast<double>(region.cells) * raster.cell_area() > options.regions.hollow_share * area;
+  };
+  const int columns = region.most_column - region.least_column + 1, rows = region.most_row - region.least_row + 1;
+  if (fills(columns * rows * raster.cell_area())) return std::nullopt;
+  std::vector<Point2> rims;
+  for (int j = region.least_row; j <= region.most_row; ++j)
+    for (int i = region.least_column; i <= region.most_column; ++i) {
+      if (!region.mask[raster.at(i, j)]) continue;
+      const double half = raster.spacing / 2;
+      for (const double x : {-half, half})
+        for (const double y : {-half, half}) rims.push_back({raster.x(i) + x, raster.y(j) + y});
     }
-    if (auto polygon = polygon_of(some, options.samples.melt)) out.push_back(std::move(*polygon));
-  }
-  return out;
+  const auto around = geometry::extent_of(std::move(rims));
+  if (!fills(around.width * around.length)) return std::nullopt;
+  return Polygon{{around.corners.begin(), around.corners.end()}, {}};
 }
 
 auto pieces_in_part(const Polygon& part, const Polygon& polygon, const Options::Pieces& options)

@@ -1,6 +1,7 @@
-// Outlines with walls along two directions for what stands in a part.
+// Rectangles for what stands in a part.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mansard/refine/detail/propose_raster.hpp"
@@ -8,24 +9,19 @@
 
 namespace mansard::refine::detail::carve {
 
-/// Along the raster's axes, metres.
-struct Rectangle {
-  geometry::Point2 least, most;
-};
+/// The rectangle that covers the region best, its sides moved to the part's own edges where those are near. In the
+/// raster's frame; it may reach beyond the part. None where too little of the region is in it. `across` is the raster
+/// turned.
+[[nodiscard]] auto outline_of(const Raster& raster, const Raster& across, const Region& region, const Options& options)
+    -> std::optional<geometry::Polygon>;
 
-/// Outlines of one, two and more rectangles that cover the region best, their sides moved to where the heights step,
-/// then to the part's own edges where those are near. In the raster's frame; they may reach beyond the part.
-/// `across` is the raster turned.
-[[nodiscard]] auto outlines_of(const Raster& raster, const Raster& across, const Region& region, const Options& options)
-    -> std::vector<geometry::Polygon>;
+/// The smallest rectangle around the region, where the region fills that and no rectangle along the raster's axes. In
+/// the raster's frame.
+[[nodiscard]] auto askew_outline_of(const Raster& raster, const Region& region, const Options& options)
+    -> std::optional<geometry::Polygon>;
 
-/// Where along x the heights step near `at`, over some rows; `at` itself where they do not. Metres in the
-/// raster's frame.
 /// m; the roofs on both sides of a wall are read up to this distance from it.
 [[nodiscard]] inline auto reach_beside(const Options& options) -> double { return 3 * options.samples.melt; }
-
-[[nodiscard]] auto step_near(const Raster& raster, double at, const std::vector<int>& rows, const Options& options)
-    -> double;
 
 /// The place x, or that of an edge of the part that is near and nearly parallel to y; what is cut goes from y to y.
 [[nodiscard]] auto aligned(const Raster& raster, double at, double from, double to, const Options::Outlines& options)

@@ -162,45 +162,31 @@ auto cells_in(const Polygon& polygon, const Raster& raster) -> std::vector<std::
   return out;
 }
 
-auto directions_of(const Polygon& part, const Options::Directions& options) -> std::vector<Frame> {
+auto direction_of(const Polygon& part, const Options::Directions& options) -> Frame {
   struct Way {
     double angle, length;
   };
   std::vector<Way> ways;
-  double total = 0;
   geometry::each_edge(part, [&](Point2 a, Point2 b) {
-    const double l = length(b - a);
-    if (l <= 0) return;
-    ways.push_back({angle_of(b - a), l});
-    total += l;
+    if (const double l = length(b - a); l > 0) ways.push_back({angle_of(b - a), l});
   });
-  std::vector<Frame> out;
-  for (int round = 0; round < 2; ++round) {
-    double best = 0, best_angle = 0;
-    for (const Way& centre : ways) {
-      double support = 0, shift = 0;
-      for (const Way& way : ways) {
-        const double d = turn(way.angle, centre.angle);
-        if (std::abs(d) > options.same) continue;
-        support += way.length;
-        shift += way.length * d;
-      }
-      if (support <= best * clearly_more) continue;
-      best = support;
-      best_angle = centre.angle + shift / support;
+  double best = 0, best_angle = 0;
+  for (const Way& centre : ways) {
+    double support = 0, shift = 0;
+    for (const Way& way : ways) {
+      const double d = turn(way.angle, centre.angle);
+      if (std::abs(d) > options.same) continue;
+      support += way.length;
+      shift += way.length * d;
     }
-    if (best <= 0 || (round == 1 && best < options.second_share * total)) break;
-    // Edges that go exactly along the axes keep them so.
-    const Point2 axis{geometry::cosine(best_angle), geometry::sine(best_angle)};
-    out.push_back({std::abs(axis.y) < on_axis ? Point2{1, 0} : axis});
-    std::erase_if(ways, [&](const Way& way) { return std::abs(turn(way.angle, best_angle)) < options.other; });
+    if (support <= best * clearly_more) continue;
+    best = support;
+    best_angle = centre.angle + shift / support;
   }
-  if (out.empty()) out.push_back({});
-  return out;
-}
-
-auto turn_between(const Frame& a, const Frame& b) -> double {
-  return std::abs(turn(angle_of(a.axis), angle_of(b.axis)));
+  if (best <= 0) return {};
+  // Edges that go exactly along the axes keep them so.
+  const Point2 axis{geometry::cosine(best_angle), geometry::sine(best_angle)};
+  return {std::abs(axis.y) < on_axis ? Point2{1, 0} : axis};
 }
 
 }  // namespace mansard::refine::detail::carve

@@ -59,11 +59,7 @@ struct Raster {
 /// Which cells have their centre in the polygon, given in the raster's frame; 1 or 0 per cell.
 [[nodiscard]] auto cells_in(const geometry::Polygon& polygon, const Raster& raster) -> std::vector<std::uint8_t>;
 
-/// The directions in which most of the part's edges go, modulo 90°: one or two, the first with the longer edges.
-[[nodiscard]] auto directions_of(const geometry::Polygon& part, const Options::Directions& options)
-    -> std::vector<Frame>;
-
-/// Angle between two frames modulo 90°, radians.
-[[nodiscard]] auto turn_between(const Frame& a, const Frame& b) -> double;
+/// The direction in which most of the part's edges go, by length, modulo 90°.
+[[nodiscard]] auto direction_of(const geometry::Polygon& part, const Options::Directions& options) -> Frame;
 
 }  // namespace mansard::refine::detail::carve

@@ -2,20 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
+#include <iterator>
 #include <map>
 
 #include "mansard/base/disjoint_sets.hpp"
-#include "mansard/geometry/angles.hpp"
+#include "mansard/geometry/fit.hpp"
 #include "mansard/planes/planes.hpp"
 
 namespace mansard::refine::detail::carve {
 namespace {
 
 using Mask = std::vector<std::uint8_t>;
-
-/// Error bound, m: a rise is the difference of two floats below 1e3 m, exact to 6e-5 m; one of less than this is 0.
-constexpr double no_rise = 1e-6;
 
 /// Residuals with unseen gaps filled from around.
 auto filled(const Raster& raster, std::int64_t gap_cells) -> std::vector<float> {
@@ -139,81 +136,16 @@ void add_components(const Raster& raster, const Mask& mask, double least_area, d
   }
 }
 
-/// Levels, m, ascending, that part the residuals into heaps.
-auto levels_of(const Raster& raster, const std::vector<float>& residual, const Options& options)
-    -> std::vector<double> {
-  const auto& o = options.regions;
-  const double bin = o.bin, highest = o.max_residual;
-  const auto count = static_cast<std::size_t>(2 * highest / bin) + 1;
-  std::vector<double> raw(count, 0), heap(count, 0);
-  for (std::size_t k = 0; k < residual.size(); ++k)
-    if (raster.state[k] == Cell::seen)
-      raw[static_cast<std::size_t>((std::clamp<double>(residual[k], -highest, highest) + highest) / bin)] +=
-          raster.cell_area();
-  for (std::size_t b = 1; b + 1 < count; ++b) heap[b] = (raw[b - 1] + 2 * raw[b] + raw[b + 1]) / 4;
-
-  struct Level {
-    double height, weight;
-  };
-  std::vector<Level> found;
-  std::size_t peak = 0;    // of the heap before
-  std::size_t lowest = 0;  // since then
-  for (std::size_t b = 1; b + 1 < count; ++b) {
-    const bool top =
-        heap[b] > heap[b - 1] && heap[b] >= heap[b + 1] && 3 * heap[b] >= o.peak_share * options.cuts.min_area;
-    if (heap[b] < heap[lowest]) lowest = b;
-    if (!top) continue;
-    const double smaller = std::min(heap[peak], heap[b]);
-    if (peak != 0 && heap[lowest] < o.valley * smaller) {
-      // Half way between the heaps is where a melted wall is crossed.
-      const double middle = (static_cast<double>(peak + b) + 1) / 2 * bin - highest;
-      found.push_back({middle, smaller});
-      peak = lowest = b;
-    } else if (heap[b] > heap[peak]) {
-      peak = lowest = b;
-    }
-  }
-  std::ranges::stable_sort(found, std::greater{}, &Level::weight);
-  const auto most = static_cast<std::size_t>(o.max_levels);
-  if (found.size() > most) found.resize(most);
-  std::vector<double> out;
-  for (const Level& level : found) out.push_back(level.height);
-  std::ranges::sort(out);
-  return out;
-}
-
-/// Every pair of bounds, m, between which a structure may stand; the model itself lies in none.
-auto bands_of(const std::vector<double>& levels, const Options& options) -> std::vector<std::pair<double, double>> {
-  constexpr double unbounded = 1e9;  // m; above every residual
-  const double least_step = options.cuts.min_step, clear = options.regions.level_clearance * least_step;
-  std::vector<double> above{least_step}, below{-least_step};
-  for (const double level : levels) {
-    if (level > clear) above.push_back(level);
-    if (level < -clear) below.push_back(level);
-  }
-  std::ranges::sort(below, std::greater{});
-  std::vector<std::pair<double, double>> out;
-  for (std::size_t i = 0; i < above.size(); ++i) {
-    out.emplace_back(above[i], unbounded);
-    if (i + 1 < above.size()) out.emplace_back(above[i], above[i + 1]);
-  }
-  for (std::size_t i = 0; i < below.size(); ++i) {
-    out.emplace_back(-unbounded, below[i]);
-    if (i + 1 < below.size()) out.emplace_back(below[i + 1], below[i]);
-  }
-  return out;
-}
-
-/// Per cell the plane of a point in it; where there is none, that of a cell within `near` metres.
-auto planes_by_cell(const Raster& raster, const OnPlanes& points, double near) -> std::vector<std::uint32_t> {
+/// Per cell the plane of a sample in it; where there is none, that of a cell within `near` metres.
+auto planes_by_cell(const Raster& raster, const OnPlanes& samples, double near) -> std::vector<std::uint32_t> {
   constexpr std::uint32_t none = planes::Found::none;
   std::vector<std::uint32_t> out(raster.z.size(), none);
-  for (std::size_t i = 0; i < points.places.size(); ++i) {
-    const geometry::Point2 at = raster.frame.to(points.places[i]);
+  for (std::size_t i = 0; i < samples.places.size(); ++i) {
+    const geometry::Point2 at = raster.frame.to(samples.places[i]);
     const auto column = static_cast<int>(std::lround((at.x - raster.least.x) / raster.spacing)),
                row = static_cast<int>(std::lround((at.y - raster.least.y) / raster.spacing));
     if (raster.inside(column, row) && out[raster.at(column, row)] == none)
-      out[raster.at(column, row)] = points.planes[i];
+      out[raster.at(column, row)] = samples.planes[i];
   }
   const auto passes = static_cast<int>(std::ceil(near / raster.spacing));
   for (int pass = 0; pass < passes; ++pass) {
@@ -228,6 +160,66 @@ auto planes_by_cell(const Raster& raster, const OnPlanes& points, double near) -
           }
       }
   }
+  return out;
+}
+
+/// Of the samples on each plane, from the raster's first cell.
+auto fitted_planes(const Raster& raster, const OnPlanes& samples) -> std::map<std::uint32_t, geometry::FittedPlane> {
+  constexpr double singular = 1e-9;  // a determinant of less, relative to its terms, is rounding: all on one line
+  std::map<std::uint32_t, geometry::PlaneSums> sums;
+  for (std::size_t i = 0; i < samples.places.size(); ++i) {
+    if (samples.planes[i] >= planes::Found::wall) continue;
+    const geometry::Point2 at = raster.frame.to(samples.places[i]) - raster.least;
+    sums[samples.planes[i]].add(at.x, at.y, samples.heights[i]);
+  }
+  std::map<std::uint32_t, geometry::FittedPlane> out;
+  for (const auto& [number, sum] : sums) {
+    const auto equations = sum.centred();
+    const bool spread = equations.determinant() > singular * equations.xx * equations.yy;
+    out.emplace(number, sum.plane(spread ? equations.slopes() : geometry::Point2{}));
+  }
+  return out;
+}
+
+/// Groups of planes, each ascending, that meet in ridges and hips: a valley or a step parts two roofs, a ridge does
+/// not. Parts of shapes that meet in convex edges alone are one thing (Stein et al., Object Partitioning using Local
+/// Convexity, 2014).
+auto under_one_roof(const Raster& raster, const OnPlanes& samples, const std::vector<std::uint32_t>& label,
+                    const Options& options) -> std::vector<std::vector<std::uint32_t>> {
+  const auto planes = fitted_planes(raster, samples);
+  // Between two planes is no sample nearer to where they meet than that.
+  const double between = std::sqrt(samples.area) + options.samples.melt;
+  struct Border {
+    std::size_t cells = 0, ridge = 0;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Border> borders;
+  for (int j = 0; j < raster.rows; ++j)
+    for (int i = 0; i < raster.columns; ++i)
+      for (const auto& [di, dj] : {std::pair{1, 0}, {0, 1}}) {
+        if (!raster.inside(i, j) || !raster.inside(i + di, j + dj)) continue;
+        const auto a = label[raster.at(i, j)], b = label[raster.at(i + di, j + dj)];
+        if (a == b || a >= planes::Found::wall || b >= planes::Found::wall) continue;
+        const auto &one = planes.at(a), &other = planes.at(b);
+        const double x = (i + di / 2.0) * raster.spacing, y = (j + dj / 2.0) * raster.spacing;
+        const geometry::Point2 turn = other.slope - one.slope;
+        const double apart = std::abs(one.at(x, y) - other.at(x, y));
+        Border& border = borders[{std::min(a, b), std::max(a, b)}];
+        ++border.cells;
+        if (di * turn.x + dj * turn.y < 0 && apart <= options.lines.robust + between * length(turn)) ++border.ridge;
+      }
+  std::vector<std::uint32_t> numbers;
+  for (const auto& [number, plane] : planes) numbers.push_back(number);
+  const auto index = [&](std::uint32_t number) {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(numbers, number) - numbers.begin());
+  };
+  base::DisjointSets sets(numbers.size());
+  for (const auto& [pair, border] : borders)
+    if (2 * border.ridge > border.cells) sets.join(index(pair.first), index(pair.second));
+  std::map<std::size_t, std::vector<std::uint32_t>> groups;
+  for (const auto number : numbers) groups[sets.of(index(number))].push_back(number);
+  std::vector<std::vector<std::uint32_t>> out;
+  for (auto& [root, group] : groups)
+    if (group.size() > 1 && group.size() < numbers.size()) out.push_back(std::move(group));
   return out;
 }
 
@@ -250,29 +242,15 @@ auto grown(const Raster& raster, const Mask& mask, double by) -> Mask {
   return off;
 }
 
-void leave_out_strays(Raster& raster, const Options& options) {
-  const auto limit = static_cast<float>(options.robust);
-  for (const float way : {1.0F, -1.0F}) {
-    // Half of the limit, so that noise about the limit makes no holes.
-    Mask off(raster.z.size());
-    for (std::size_t k = 0; k < off.size(); ++k)
-      off[k] = raster.state[k] == Cell::seen && way * raster.residual[k] > limit / 2 ? 1 : 0;
-    const Mask wide = opened(raster, off, half_width(raster, options));
-    for (std::size_t k = 0; k < off.size(); ++k)
-      if (way * raster.residual[k] > limit && !wide[k])
-        raster.state[k] = Cell::unseen, raster.z[k] = raster.residual[k] = 0;
-  }
-}
-
 auto regions_of(const Raster& raster, const Options& options) -> std::vector<Region> {
   const auto& o = options.regions;
   const std::vector<float> residual = filled(raster, o.gap_cells);
   const int by = half_width(raster, options);
   std::vector<Region> out;
-  for (const auto& [low, high] : bands_of(levels_of(raster, residual, options), options)) {
+  for (const float way : {1.0F, -1.0F}) {
     Mask mask(residual.size());
     for (std::size_t k = 0; k < mask.size(); ++k)
-      mask[k] = raster.state[k] != Cell::outside && residual[k] > low && residual[k] < high ? 1 : 0;
+      mask[k] = raster.state[k] != Cell::outside && way * residual[k] > options.cuts.min_step ? 1 : 0;
     const std::size_t before = out.size();
     mask = opened(raster, mask, by);
     add_components(raster, mask, o.min_area_share * options.cuts.min_area, o.seen_share, out);
@@ -289,53 +267,28 @@ auto regions_of(const Raster& raster, const Options& options) -> std::vector<Reg
   return out;
 }
 
-auto regions_of_planes(const Raster& raster, const OnPlanes& points, double least_gain, const Options& options)
+auto regions_of_planes(const Raster& raster, const OnPlanes& samples, double least_gain, const Options& options)
     -> std::vector<Region> {
-  const auto label = planes_by_cell(raster, points, std::sqrt(options.samples.point_area));
+  const auto label = planes_by_cell(raster, samples, std::max(raster.spacing, std::sqrt(samples.area)));
   std::map<std::uint32_t, double> off;
   for (std::size_t k = 0; k < label.size(); ++k)
     if (label[k] < planes::Found::wall && raster.state[k] == Cell::seen)
       off[label[k]] += static_cast<double>(raster.residual[k]) * raster.residual[k] * raster.cell_area();
+  std::vector<std::vector<std::uint32_t>> groups;
+  for (const auto& [plane, gain] : off) groups.push_back({plane});
+  std::ranges::move(under_one_roof(raster, samples, label, options), std::back_inserter(groups));
   std::vector<Region> out;
-  for (const auto& [plane, gain] : off) {
+  for (const auto& group : groups) {
+    double gain = 0;
+    for (const auto plane : group)
+      if (const auto found = off.find(plane); found != off.end()) gain += found->second;
     if (gain < least_gain) continue;
     Mask mask(label.size());
-    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = label[k] == plane ? 1 : 0;
+    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = std::ranges::binary_search(group, label[k]) ? 1 : 0;
     add_components(raster, opened(raster, mask, half_width(raster, options)),
                    options.regions.min_area_share * options.cuts.min_area, 0, out);
   }
   return out;
-}
-
-auto own_direction(const Raster& raster, const Region& region, const Options::Regions& options, Frame& direction)
-    -> bool {
-  const int rim_cells = static_cast<int>(options.rim_cells);
-  std::complex<double> sum = 0;
-  double total = 0;
-  const auto r = [&](int i, int j) { return static_cast<double>(raster.residual[raster.at(i, j)]); };
-  for (int j = std::max(1, region.least_row - rim_cells); j <= std::min(raster.rows - 2, region.most_row + rim_cells);
-       ++j)
-    for (int i = std::max(1, region.least_column - rim_cells);
-         i <= std::min(raster.columns - 2, region.most_column + rim_cells); ++i) {
-      bool rim = false, known = true;
-      for (const auto& [di, dj] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-        const std::size_t k = raster.at(i + di, j + dj);
-        known = known && raster.state[k] == Cell::seen;
-        rim = rim || region.mask[k] != region.mask[raster.at(i, j)];
-      }
-      if (!rim || !known) continue;
-      const std::complex<double> rise(r(i + 1, j) - r(i - 1, j), r(i, j + 1) - r(i, j - 1));
-      const double size = std::abs(rise);
-      if (size < no_rise) continue;
-      const std::complex<double> unit = rise / size, twice = unit * unit;
-      sum += size * twice * twice;  // four times the angle: walls at right angles agree
-      total += size;
-    }
-  if (total <= 0 || std::abs(sum) < options.agreement * total) return false;
-  const double angle = geometry::arc_tangent(sum.imag(), sum.real()) / 4;
-  const geometry::Point2 own{geometry::cosine(angle), geometry::sine(angle)};
-  direction = {raster.frame.back(own)};
-  return true;
 }
 
 }  // namespace mansard::refine::detail::carve

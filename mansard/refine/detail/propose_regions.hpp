@@ -1,4 +1,4 @@
-// Connected regions of a part that stand above or below the model together.
+// Connected regions of a part that may be a part of their own.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,14 @@ struct Region {
   std::size_t cells = 0;
 };
 
-/// Islands above and below the model at every level that parts the residuals, bands between such levels, and, where a
-/// region runs around something, what it runs around. In an order that depends on the raster only.
+/// Islands above and below the model and, where one runs around something, what it runs around. In an order that
+/// depends on the raster only.
 [[nodiscard]] auto regions_of(const Raster& raster, const Options& options) -> std::vector<Region>;
 
-/// What is farther from the model than differences count, and narrower than a structure, is as if it were unseen:
-/// strips along walls that were sampled beside their place, chimneys, cables.
-void leave_out_strays(Raster& raster, const Options& options);
-
-/// Connected cells whose points lie on one plane, where that explains at least `least_gain`, m²·m², of what the model
-/// leaves. In the order of the planes' numbers.
-[[nodiscard]] auto regions_of_planes(const Raster& raster, const OnPlanes& points, double least_gain,
+/// Connected cells whose samples lie on one plane, or on planes that meet in ridges and hips, where that explains at
+/// least `least_gain`, m²·m², of what the model leaves. In the order of the planes' numbers.
+[[nodiscard]] auto regions_of_planes(const Raster& raster, const OnPlanes& samples, double least_gain,
                                      const Options& options) -> std::vector<Region>;
-
-/// The direction of the region's own walls where they agree on one, from how the residual rises at its rim.
-[[nodiscard]] auto own_direction(const Raster& raster, const Region& region, const Options::Regions& options,
-                                 Frame& direction) -> bool;
 
 /// The mask, less what is within `by` metres of a cell that is not in it; a square's distance.
 [[nodiscard]] auto shrunk(const Raster& raster, const std::vector<std::uint8_t>& mask, double by)

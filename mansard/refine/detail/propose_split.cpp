@@ -180,17 +180,12 @@ auto gains_of(const Raster& raster, const std::vector<Crossing>& crossings, cons
   return out;
 }
 
-/// The line before column i, moved to where between columns its step or its best gain is.
-auto line_at(const Raster& raster, std::size_t i, const std::vector<double>& gains, const Crossing& crossing,
-             const Options& options) -> SplitLine {
+/// The line before column i; a valley's moved to where between columns its best gain is.
+auto line_at(const Raster& raster, std::size_t i, const std::vector<double>& gains, const Crossing& crossing)
+    -> SplitLine {
   const int column = static_cast<int>(i);
   SplitLine line{raster.x(column) - raster.spacing / 2, gains[i], !crossing.valley};
-  if (line.step) {
-    // What stands farther on may draw the sums a metre off; the second look is from nearer by.
-    const std::vector<int> rows = rows_across(raster, column);
-    line.at = step_near(raster, step_near(raster, line.at, rows, options), rows, options);
-    return line;
-  }
+  if (line.step) return line;
   const double before = gains[i - 1], after = gains[i + 1], bend = 2 * gains[i] - before - after;
   // The top of the parabola through three, where they have one.
   if (before >= 0 && after >= 0 && gains[i] >= std::max(before, after) && bend > 0)
@@ -212,9 +207,7 @@ auto split_lines(const Raster& raster, double least_gain, const Options& options
   for (std::ptrdiff_t i = 1; i + 1 < count; ++i) {
     bool top = g(i) * raster.cell_area() >= least_gain;
     for (std::ptrdiff_t d = 1; d <= reach && top; ++d) top = g(i) > g(i - d) && g(i) >= g(i + d);
-    if (top)
-      out.push_back(
-          line_at(raster, static_cast<std::size_t>(i), gains, crossings[static_cast<std::size_t>(i)], options));
+    if (top) out.push_back(line_at(raster, static_cast<std::size_t>(i), gains, crossings[static_cast<std::size_t>(i)]));
   }
   std::ranges::stable_sort(out, std::greater{}, &SplitLine::gain);
   const auto most = static_cast<std::size_t>(options.splits.max_count);

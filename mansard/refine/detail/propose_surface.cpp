@@ -141,8 +141,7 @@ auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, cons
   all += outside;
   Errors out{{inside.count, inside.rr, plain_error(inside)},
              {outside.count, outside.rr, plain_error(outside)},
-             {all.count, all.rr, plain_error(all)},
-             inside.count > 0 ? inside.r / inside.count : 0};
+             {all.count, all.rr, plain_error(all)}};
   const auto improve = [](Error& error, double by) { error.best = std::min(error.best, by); };
   const double least = options.ridge_min_area / raster.cell_area();
   for (const geometry::Point2 along : {ridges.axis, geometry::left_of(ridges.axis)}) {

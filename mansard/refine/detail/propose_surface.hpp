@@ -45,7 +45,6 @@ struct Error {
 /// Two sets of cells, each by its best simple surface, and both by one.
 struct Errors {
   Error inside, outside, whole;
-  double inside_mean = 0;  ///< mean residual, m
 };
 [[nodiscard]] auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, const Frame& ridges,
                              const Options::Surfaces& options) -> Errors;

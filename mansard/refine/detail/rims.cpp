@@ -84,7 +84,7 @@ auto within_rims(const Site& site, const View& roof, double least_gain, const Op
   if (step < options.cuts.min_step || share_above(edges, width, level + step / 2) < around_it) return {};
   auto inside = geometry::buffer(site.polygon, -width);
   if (!inside || inside->size() != 1) return {};
-  Proposal out{std::move(inside->front()), gain * site.sample_area, -step,
+  Proposal out{std::move(inside->front()), gain * site.sample_area,
                "lies " + base::to_text(step, 1) + " m below the parapet around it"};
   out.rim = true;
   return {std::move(out)};

@@ -168,7 +168,7 @@ auto Work::cut_anew(const Piece& a, const Piece& b, const Union& both) const -> 
   for (const Piece* piece : pair) {
     auto moved = at_steps(both.polygon, piece->site.polygon, one.site.measured, on_planes_of(one.site), options_);
     if (moved && moved->outer != piece->site.polygon.outer)
-      seams.push_back({std::move(*moved), misfit_between(a, b), 0, "its wall where the scan has it", false});
+      seams.push_back({std::move(*moved), misfit_between(a, b), "its wall where the scan has it", false});
   }
   auto pieces = cheapest(one, seams, worth);
   return pieces.empty() ? cut_within(one, options_.face_price, worth) : pieces;
@@ -202,10 +202,7 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
     proposal = &proposals[k];
     pieces = tried(piece, *proposal, worth);
     if (pieces.empty()) return;
-    std::vector<const Piece*> each;
-    for (const auto& one : pieces) each.push_back(&one);
-    cost = options_.part_price * (static_cast<double>(pieces.size()) - 1) + hidden(piece.site, piece.roof, each);
-    for (const auto& one : pieces) cost += one.roof.cost;
+    cost = cost_instead(piece, pieces);
     if (!cheaper(cost, worth, options_.same_cost)) pieces.clear();
   });
   std::erase_if(trials, [](const Trial& trial) { return trial.pieces.empty(); });
@@ -217,9 +214,20 @@ auto Work::cheapest(const Piece& piece, const std::vector<Proposal>& proposals, 
   for (auto& trial : trials) {
     if (needles(trial.pieces)) continue;
     auto pieces = searched(piece, *trial.proposal, std::move(trial.pieces));
-    if (!pieces.empty() && !needles(pieces)) return pieces;
+    // What was found quickly is no promise: pieces that cost more in the end would be cut again for ever.
+    if (!pieces.empty() && !needles(pieces) && cheaper(cost_instead(piece, pieces), worth, options_.same_cost))
+      return pieces;
   }
   return {};
+}
+
+/// m²·m²: what pieces of a piece cost together, with what the walls between them hide.
+auto Work::cost_instead(const Piece& whole, const std::vector<Piece>& pieces) const -> double {
+  std::vector<const Piece*> each;
+  for (const auto& one : pieces) each.push_back(&one);
+  double cost = options_.part_price * (static_cast<double>(pieces.size()) - 1) + hidden(whole.site, whole.roof, each);
+  for (const auto& one : pieces) cost += one.roof.cost;
+  return cost;
 }
 
 /// The cuts between wings, those with most misfit about them.
@@ -240,7 +248,7 @@ auto Work::wings_of(const Piece& piece, double least_gain) const -> std::vector<
   for (const auto& [line, about] : lines) {
     if (wings.size() >= most) break;
     for (auto& wing : wings_along(piece.site.polygon, line, options_))
-      wings.push_back({std::move(wing), about, 0, "a wing", true});
+      wings.push_back({std::move(wing), about, "a wing", true});
   }
   if (wings.size() > most) wings.resize(most);
   return wings;

@@ -111,6 +111,7 @@ class Work {
       -> std::vector<Piece>;
   [[nodiscard]] auto cuts_of(const Piece& piece, double least_gain) const -> std::vector<Proposal>;
   [[nodiscard]] auto wings_of(const Piece& piece, double least_gain) const -> std::vector<Proposal>;
+  [[nodiscard]] auto cost_instead(const Piece& whole, const std::vector<Piece>& pieces) const -> double;
   [[nodiscard]] auto hidden(const Site& whole, const Judged& roof, std::span<const Piece* const> pieces) const
       -> double;
   [[nodiscard]] auto misfit_about(const Piece& piece, geometry::Point2 place, double within) const -> double;

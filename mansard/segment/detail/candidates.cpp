@@ -9,8 +9,8 @@
 
 namespace mansard::segment::detail {
 
-auto candidates_of(const fracture::Arrangement& arrangement, const sweep::SweepEdges& edges,
-                   const std::vector<FaceEvidence>& faces, const Options& options) -> std::vector<Candidate> {
+auto candidates_of(const fracture::Arrangement& arrangement, const std::vector<FaceEvidence>& faces,
+                   const Options& options) -> std::vector<Candidate> {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> shared;
   for (std::uint32_t h = 0; h < arrangement.half_edges.size(); ++h) {
     const auto left = arrangement.half_edges[h].face;
@@ -29,7 +29,7 @@ auto candidates_of(const fracture::Arrangement& arrangement, const sweep::SweepE
       c.length += length;
       // A candidate may be a wall along one stretch and none along another: each stretch pays for itself.
       for (const TermInfo& info : terms())
-        if (info.share != nullptr) c.amounts[info.term] += info.share(edge, edges, options) * length;
+        if (info.share != nullptr) c.amounts[info.term] += info.share(edge, options) * length;
       if (is_sweep(edge, options)) on_sweep += length;
     }
     c.half_edges = std::move(half_edges);
@@ -120,10 +120,9 @@ auto problem_of(const fracture::Arrangement& arrangement, const std::vector<Face
   return problem;
 }
 
-auto terms_of(const fracture::Arrangement& arrangement, const sweep::SweepEdges& edges,
-              const std::vector<std::optional<std::uint32_t>>& label_of_face, const std::vector<Candidate>& candidates,
-              const std::vector<std::optional<std::uint32_t>>& candidate_of, const std::vector<Conflict>& conflicts,
-              double phi, const Options& options) -> Terms {
+auto terms_of(const fracture::Arrangement& arrangement, const std::vector<std::optional<std::uint32_t>>& label_of_face,
+              const std::vector<Candidate>& candidates, const std::vector<std::optional<std::uint32_t>>& candidate_of,
+              const std::vector<Conflict>& conflicts, double phi, const Options& options) -> Terms {
   Terms sums;
   for (std::uint32_t h = 0; h < arrangement.half_edges.size(); h += 2) {
     const fracture::HalfEdge& edge = arrangement.half_edges[h];
@@ -134,7 +133,7 @@ auto terms_of(const fracture::Arrangement& arrangement, const sweep::SweepEdges&
     for (const TermInfo& info : terms()) {
       if (info.paid != paid || info.weight == nullptr) continue;
       sums[info.term] += info.share != nullptr
-                             ? options.*info.weight * info.share(edge, edges, options) * length
+                             ? options.*info.weight * info.share(edge, options) * length
                              : options.*info.weight * length * candidates[*candidate_of[h]].amounts[info.term];
     }
   }

@@ -14,9 +14,8 @@ namespace mansard::segment::detail {
 /// One candidate for every two inside faces that share an edge: cutting one of their common runs and not another would
 /// leave a wall that ends inside a footprint. Ordered by (left, right).
 /// Without costs; with the faces' difference of medians.
-[[nodiscard]] auto candidates_of(const fracture::Arrangement& arrangement, const sweep::SweepEdges& edges,
-                                 const std::vector<FaceEvidence>& faces, const Options& options)
-    -> std::vector<Candidate>;
+[[nodiscard]] auto candidates_of(const fracture::Arrangement& arrangement, const std::vector<FaceEvidence>& faces,
+                                 const Options& options) -> std::vector<Candidate>;
 
 /// Sets every candidate's costs by its lengths, its height difference, and the conflicts with the outline.
 void price(std::vector<Candidate>& candidates, const std::vector<Conflict>& conflicts, double phi,
@@ -49,7 +48,7 @@ struct Problem {
 
 /// The terms from the faces' labels alone, half-edge by half-edge: shares nothing with `problem_of` but the height
 /// differences and the conflicts.
-[[nodiscard]] auto terms_of(const fracture::Arrangement& arrangement, const sweep::SweepEdges& edges,
+[[nodiscard]] auto terms_of(const fracture::Arrangement& arrangement,
                             const std::vector<std::optional<std::uint32_t>>& label_of_face,
                             const std::vector<Candidate>& candidates,
                             const std::vector<std::optional<std::uint32_t>>& candidate_of,

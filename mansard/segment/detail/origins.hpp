@@ -29,19 +29,6 @@ namespace mansard::segment::detail {
   return on_sweep_edge(h) ||
          (options.continuations == Continuations::sweep && std::ranges::any_of(h.origins, continues_one));
 }
-/// The share of α that this edge pays when the footprints leave it unused: a low roof step less than a wall.
-[[nodiscard]] inline auto sweep_share(const fracture::HalfEdge& h, const sweep::SweepEdges& edges,
-                                      const Options& options) -> double {
-  double share = 0;
-  for (const fracture::Origin& o : h.origins) {
-    if (o.kind == fracture::Kind::border || o.source >= gis_source) continue;
-    if (o.kind == fracture::Kind::continuation && options.continuations == Continuations::plain) continue;
-    const sweep::SweepEdge& edge = edges.edges[o.source];
-    const bool whole = edge.evidence == sweep::Evidence::wall || edge.step >= options.step_full;
-    share = std::max(share, whole ? 1 : edge.step / options.step_full);
-  }
-  return share;
-}
 /// Whether a footprint may have this edge without paying β.
 [[nodiscard]] inline auto is_supported(const fracture::HalfEdge& h, const Options& options) -> bool {
   return is_sweep(h, options) || (options.gis_edges != GisEdges::ignore && on_gis_edge(h));

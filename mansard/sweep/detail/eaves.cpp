@@ -67,7 +67,7 @@ auto moved_under_eaves(std::vector<SweepEdge> edges, const block::Block& block, 
       const Point2 p = s.start + (static_cast<double>(i) + 0.5) * o.column_width * d;
       const auto footprint = nearest_outside(p, d, beside);
       if (!footprint || *footprint <= o.gis_inward || *footprint > o.eaves_reach) continue;
-      if (const auto eaves = reach_of_eaves(p, out, *footprint, o.gis_inward, mesh, block.ground, o.step_ground))
+      if (const auto eaves = reach_of_eaves(p, out, *footprint, o.gis_inward, mesh, block.ground, o.roof_height))
         places.push_back({*footprint, *eaves});
     }
     if (2 * places.size() <= columns) continue;  // eaves and a footprint's edge along most of the wall
