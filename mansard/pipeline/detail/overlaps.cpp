@@ -23,6 +23,9 @@ using geometry::Polygon;
 /// A solid is compared with so many others in the source's order, and with every one that has as few: where many are
 /// stacked on one place, the work grows with their number and not with that of their pairs.
 constexpr std::size_t most_compared = 32;
+/// m²: less is no reason to look at a building: 0.1 mm, the unit of the files, along a wall of 5 m. It is counted among
+/// all overlaps.
+constexpr double least_told = 5e-4;
 /// So many overlaps are reported of a solid, the largest ones, and so many of the whole that could not be computed.
 constexpr std::size_t most_reported = 20;
 
@@ -154,6 +157,7 @@ auto said_of_each(const Named& named, const std::vector<Pair>& pairs, bool all) 
   const auto& solids = named.solids;
   std::vector<std::vector<std::uint32_t>> of(solids.size());
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    if (pairs[i].failure.empty() && pairs[i].area < least_told) continue;
     of[pairs[i].first].push_back(i);
     if (solids[pairs[i].first].building != solids[pairs[i].second].building) of[pairs[i].second].push_back(i);
   }
