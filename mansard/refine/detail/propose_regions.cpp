@@ -6,8 +6,8 @@
 #include <map>
 
 #include "mansard/base/disjoint_sets.hpp"
-#include "mansard/geometry/fit.hpp"
 #include "mansard/planes/planes.hpp"
+#include "mansard/refine/detail/propose_surface.hpp"
 
 namespace mansard::refine::detail::carve {
 namespace {
@@ -165,7 +165,6 @@ auto planes_by_cell(const Raster& raster, const OnPlanes& samples, double near) 
 
 /// Of the samples on each plane, from the raster's first cell.
 auto fitted_planes(const Raster& raster, const OnPlanes& samples) -> std::map<std::uint32_t, geometry::FittedPlane> {
-  constexpr double singular = 1e-9;  // a determinant of less, relative to its terms, is rounding: all on one line
   std::map<std::uint32_t, geometry::PlaneSums> sums;
   for (std::size_t i = 0; i < samples.places.size(); ++i) {
     if (samples.planes[i] >= planes::Found::wall) continue;
@@ -173,11 +172,7 @@ auto fitted_planes(const Raster& raster, const OnPlanes& samples) -> std::map<st
     sums[samples.planes[i]].add(at.x, at.y, samples.heights[i]);
   }
   std::map<std::uint32_t, geometry::FittedPlane> out;
-  for (const auto& [number, sum] : sums) {
-    const auto equations = sum.centred();
-    const bool spread = equations.determinant() > singular * equations.xx * equations.yy;
-    out.emplace(number, sum.plane(spread ? equations.slopes() : geometry::Point2{}));
-  }
+  for (const auto& [number, sum] : sums) out.emplace(number, plane_of(sum));
   return out;
 }
 

@@ -63,14 +63,14 @@ auto moments_of(const Raster& raster, const std::vector<std::uint8_t>& mask) -> 
   return out;
 }
 
-auto plane_of(const Moments& m) -> geometry::FittedPlane {
-  const auto equations = m.centred();
-  const double det = equations.determinant();
-  if (det > singular * equations.xx * equations.yy && det > 0) return m.plane(equations.slopes());
-  return m.plane({});
-}
-
 }  // namespace
+
+auto plane_of(const geometry::PlaneSums& sums) -> geometry::FittedPlane {
+  const auto equations = sums.centred();
+  const double det = equations.determinant();
+  if (det > singular * equations.xx * equations.yy && det > 0) return sums.plane(equations.slopes());
+  return sums.plane({});
+}
 
 void Moments::add(double px, double py, double pz, double pr) {
   PlaneSums::add(px, py, pz);

@@ -10,6 +10,9 @@
 
 namespace mansard::refine::detail::carve {
 
+/// The plane through samples, of which there is one at least; level where they are on one line in plan.
+[[nodiscard]] auto plane_of(const geometry::PlaneSums& sums) -> geometry::FittedPlane;
+
 /// Sums over cells; x and y from the raster's corner, metres.
 struct Moments : geometry::PlaneSums {
   double zz = 0, r = 0, rr = 0;  ///< r: residuals of the model

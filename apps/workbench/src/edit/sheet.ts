@@ -1,5 +1,6 @@
 // Scale and position of a drawing: metres to pixels and back. The second coordinate points up in metres, down in pixels.
 import type { Point2 } from "../api/types";
+import { distance } from "./vector";
 
 export interface Sheet {
   centre: Point2; // metres, in the middle of the drawing
@@ -59,4 +60,4 @@ export function ruling(scale: number, apart: number): number {
 
 /** Radius in pixels in which a handle takes the pointer: half the way to the next one where that is less than `reach`. */
 export const gripRadius = (at: Point2, handles: Point2[], reach: number) =>
-  Math.min(reach, ...handles.map((h) => Math.hypot(h[0] - at[0], h[1] - at[1]) / 2).filter((half) => half > 0));
+  Math.min(reach, ...handles.map((h) => distance(h, at) / 2).filter((half) => half > 0));
