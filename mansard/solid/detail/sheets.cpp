@@ -17,6 +17,9 @@ constexpr double upright = 1e-5;
 
 auto ordered(std::uint32_t a, std::uint32_t b) -> Step { return {std::min(a, b), std::max(a, b)}; }
 
+/// How many times as far from the ground as what becomes one with it a roof is that must not touch it.
+constexpr std::int64_t clear_of_ground = 3;
+
 struct Cut {
   double t = 0;  ///< 0 … 1 from the lower number of the step
   std::uint32_t at = 0;
@@ -173,8 +176,8 @@ class Conforming {
     std::erase_if(s_.sheets, [](const Sheet& sheet) { return sheet.paths.empty(); });
   }
 
-  /// A roof that comes down to the ground beside another solid gets a wall of its own there, three times as high as
-  /// what becomes one: in one solid with the other, its edge would lie inside the ground.
+  /// A roof that comes down to the ground beside another solid gets a wall of its own there, higher than what becomes
+  /// one: in one solid with the other, its edge would lie inside the ground.
   auto lift_roofs() -> bool {
     constexpr std::uint32_t nobody = UINT32_MAX, several = UINT32_MAX - 1;
     std::vector<std::uint32_t> user(s_.places.size(), nobody);
@@ -187,7 +190,8 @@ class Conforming {
       if (sheet.facing != Facing::up) continue;
       for (Path& path : sheet.paths)
         for (Node& node : path)
-          if (node.z == s_.base[sheet.solid] && user[node.at] == several) node.z += 3 * near_, lifted = true;
+          if (node.z == s_.base[sheet.solid] && user[node.at] == several)
+            node.z += clear_of_ground * near_, lifted = true;
     }
     return lifted;
   }
@@ -331,14 +335,20 @@ class Conforming {
         const double t = static_cast<double>(d0) / static_cast<double>(d0 - d1);
         const Place &a = place(step.first), &b = place(step.second);
         const double dx = static_cast<double>(b[0] - a[0]), dy = static_cast<double>(b[1] - a[1]);
-        const double reach = std::hypot(dx, dy, static_cast<double>(lines[i][1] - lines[i][0]));
+        // Near the end of either: what is a point of its own on the steeper one is one with the end of the flatter one.
+        const auto rise = [&](int line) { return std::abs(lines[line][1] - lines[line][0]); };
+        const double reach = std::hypot(dx, dy, static_cast<double>(std::min(rise(i), rise(k))));
         const bool at_start = t * reach < static_cast<double>(near_),
                    at_end = (1 - t) * reach < static_cast<double>(near_);
         const std::uint32_t p = point_at(static_cast<double>(a[0]) + t * dx, static_cast<double>(a[1]) + t * dy);
         if (at_start || at_end || p == step.first || p == step.second) {
           const bool start = at_start || p == step.first;
           const std::uint32_t end = start ? step.first : step.second;
-          set_height({end, lines[i][start ? 0 : 1]}, lines[k][start ? 0 : 1]);
+          // The steeper one: its plane hardly moves. The ground stays where it is, and a roof that met it there would
+          // touch the other solid along an edge.
+          const auto [from, to] = k < 2 && rise(k) > rise(i) ? std::pair(k, i) : std::pair(i, k);
+          const std::int64_t clear = k < 2 ? 0 : ((start ? d1 : d0) > 0 ? clear_of_ground : -clear_of_ground) * near_;
+          set_height({end, lines[from][start ? 0 : 1]}, lines[to][start ? 0 : 1] + clear);
           levelled.insert(end);
           break;
         }
