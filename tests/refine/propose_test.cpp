@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 
 #include "fields.hpp"
+#include "mansard/planes/planes.hpp"
 
 namespace mansard::refine::detail {
 
@@ -27,11 +28,38 @@ constexpr double least_gain = 2;  // m²·m²
 
 const Polygon house = rectangle({0, 0}, {20, 12});
 
+/// The cells of a surface, and the planes that they are on.
+struct CellsOnPlanes {
+  CellsOnPlanes(const Heights& scan, double noise) : area(scan.spacing * scan.spacing) {
+    std::vector<mansard::geometry::Point3> cells;
+    for (std::size_t k = 0; k < scan.z.size(); ++k) {
+      if (std::isnan(scan.z[k])) continue;
+      places.push_back(scan.centre(k));
+      heights.push_back(scan.z[k]);
+      cells.push_back({places.back().x, places.back().y, scan.z[k]});
+    }
+    planes = mansard::planes::find(cells, {.noise = noise, .point_area = area}).plane_of;
+  }
+  [[nodiscard]] auto samples() const -> mansard::refine::detail::OnPlanes {
+    return {places, planes, heights, area, false};
+  }
+  double area;
+  std::vector<Point2> places;
+  std::vector<double> heights;
+  std::vector<std::uint32_t> planes;
+};
+
+auto on_planes(const Polygon& part, const Heights& seen, const Heights& model, const Options& options)
+    -> std::vector<Proposal> {
+  const CellsOnPlanes cells(seen, options.samples.noise);
+  return propose(part, seen, model, least_gain, options, cells.samples());
+}
+
 auto found(const Polygon& part, const Roof& seen, const Roof& model, const Scan& scan = {}) -> std::vector<Proposal> {
   const Polygon there = turned(part, scan.turn);
   Options options;
   options.samples.noise = scan.noise;
-  return propose(there, scanned(there, seen, scan), modelled(there, model, scan), least_gain, options);
+  return on_planes(there, scanned(there, seen, scan), modelled(there, model, scan), options);
 }
 
 /// m² of a beyond b.
@@ -296,7 +324,7 @@ auto block_of(unsigned seed) -> Block {
 
 TEST(Propose, two_that_become_one_piece_are_proposed_once) {
   const Block b = block_of(217817);
-  const auto all = propose(b.part, scanned(b.part, b.roof, b.scan), modelled(b.part, flat(9), b.scan), least_gain, {});
+  const auto all = on_planes(b.part, scanned(b.part, b.roof, b.scan), modelled(b.part, flat(9), b.scan), {});
   EXPECT_GT(all.size(), 1U);
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -306,8 +334,7 @@ TEST(Propose, two_that_become_one_piece_are_proposed_once) {
 TEST(Propose, sides_that_are_moved_end_in_the_part) {
   for (const unsigned seed : {64752460U, 21141037U, 982539U}) {  // up to 0.022 m² were beyond
     const Block b = block_of(seed);
-    const auto all =
-        propose(b.part, scanned(b.part, b.roof, b.scan), modelled(b.part, flat(9), b.scan), least_gain, {});
+    const auto all = on_planes(b.part, scanned(b.part, b.roof, b.scan), modelled(b.part, flat(9), b.scan), {});
     EXPECT_FALSE(all.empty()) << seed;
     for (const auto& one : all) EXPECT_LT(beyond(one.polygon, b.part), 1e-6) << seed;
   }
@@ -318,8 +345,8 @@ TEST(Propose, guarantees_over_random_parts) {
     const Block b = block_of(*rc::gen::arbitrary<unsigned>());
     const Heights seen = scanned(b.part, b.roof, b.scan), model = modelled(b.part, flat(9), b.scan);
     const Options options;
-    const auto all = propose(b.part, seen, model, least_gain, options);
-    const auto again = propose(b.part, seen, model, least_gain, options);
+    const auto all = on_planes(b.part, seen, model, options);
+    const auto again = on_planes(b.part, seen, model, options);
     RC_ASSERT(std::ssize(all) <= options.cuts.max_count && all.size() == again.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Polygon& piece = all[i].polygon;

@@ -29,12 +29,13 @@ struct Heights {
   [[nodiscard]] auto at(std::size_t column, std::size_t row) const -> double { return z[row * columns + column]; }
 };
 
-/// Samples, and what they lie on.
+/// Samples, points or the cells of a grid, and what they lie on.
 struct OnPlanes {
   std::span<const geometry::Point2> places;
   std::span<const std::uint32_t> planes;  ///< of each: a number of a plane, or one of planes::Found
   std::span<const double> heights;        ///< of each; m above the base
   double area = 0;                        ///< m²: the ground of one
+  bool of_points = true;
 };
 
 /// Where the line of that y crosses the edge, if it does; an end counts for one of the two edges that share it.

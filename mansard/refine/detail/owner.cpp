@@ -255,11 +255,17 @@ class Pieces {
 auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mine, const Work& work) -> Roofed {
   Roofed out;
   const Options& options = work.options();
-  std::vector<std::optional<base::Result<Piece>>> roofed(mine.size());
+  std::vector<Site> sites(mine.size());
   base::parallel_for(mine.size(), [&](std::size_t k) {
     const auto& plan = drafts[mine[k]].plan;
-    roofed[k] = work.roofed(mine[k], work.look(model::polygon_of(plan), plan.base), drafts[mine[k]]);
+    sites[k] = work.look(model::polygon_of(plan), plan.base);
   });
+  std::vector<Site*> all;
+  for (Site& site : sites) all.push_back(&site);
+  if (options.effort == Effort::parts) put_on_planes(all, options);
+  std::vector<std::optional<base::Result<Piece>>> roofed(mine.size());
+  base::parallel_for(mine.size(),
+                     [&](std::size_t k) { roofed[k] = work.roofed(mine[k], std::move(sites[k]), drafts[mine[k]]); });
   auto& pieces = out.pieces;
   for (std::size_t k = 0; k < mine.size(); ++k) {
     const std::size_t i = mine[k];

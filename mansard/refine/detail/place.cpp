@@ -37,11 +37,15 @@ constexpr double as_little = 1e-9;
 
 constexpr double beside_reach = most_move + read;
 
+auto are_points(const OnPlanes& samples) -> bool { return samples.of_points && !samples.heights.empty(); }
+
 /// Calls see(place, height) for what is sampled near the side.
 template <class See>
-void each_near(const FreeSide& side, const Heights& grid, const OnPlanes& points, See see) {
-  for (std::size_t i = 0; i < points.heights.size(); ++i) see(points.places[i], points.heights[i]);
-  if (!points.heights.empty()) return;
+void each_near(const FreeSide& side, const Heights& grid, const OnPlanes& samples, See see) {
+  if (are_points(samples)) {
+    for (std::size_t i = 0; i < samples.heights.size(); ++i) see(samples.places[i], samples.heights[i]);
+    return;
+  }
   auto box =
       geometry::Box2::of(geometry::Segment2{side.start, side.start + side.length * side.along}).grown(beside_reach);
   const auto index = [&](double v, double origin, std::size_t count) {
@@ -56,11 +60,11 @@ void each_near(const FreeSide& side, const Heights& grid, const OnPlanes& points
 }
 
 /// Those of the part's samples whose foot is on the side, but for what is rounded: at its ends, and along the outline.
-auto samples_beside(const FreeSide& side, const Polygon& part, const Heights& grid, const OnPlanes& points,
+auto samples_beside(const FreeSide& side, const Polygon& part, const Heights& grid, const OnPlanes& samples,
                     double rounded) -> std::vector<Beside> {
   const double trim = side.length > 4 * rounded ? rounded : 0;
   std::vector<Beside> out;
-  each_near(side, grid, points, [&](Point2 place, double z) {
+  each_near(side, grid, samples, [&](Point2 place, double z) {
     const Point2 from = place - side.start;
     const double along = dot(from, side.along), off = dot(from, side.inward);
     if (along <= trim || along >= side.length - trim || std::abs(off) >= beside_reach) return;
@@ -130,15 +134,20 @@ class Sides {
   /// Turned by that slope, the cheapest place. Samples at one distance, as in a column of the grid, are on one side:
   /// rounding orders them.
   [[nodiscard]] auto best(double slope) -> std::optional<Moved> {
-    const auto off_of = [&](const Excess& s) { return s.off - slope * (s.along - length_ / 2); };
-    std::ranges::stable_sort(samples_, {}, off_of);
     double sum = 0, from = -most_move;
+    in_reach_.clear();
+    for (const auto& s : samples_) {
+      const double off = s.off - slope * (s.along - length_ / 2);
+      if (off <= -most_move) sum += s.cost;
+      else if (off < most_move) in_reach_.emplace_back(off, s.cost);
+    }
+    std::ranges::sort(in_reach_);
     std::optional<Moved> out;
-    for (std::size_t i = 0; i <= samples_.size() && from < most_move; ++i) {
-      const double to = i < samples_.size() ? std::clamp(off_of(samples_[i]), -most_move, most_move) : most_move;
+    for (std::size_t i = 0; i <= in_reach_.size(); ++i) {
+      const double to = i < in_reach_.size() ? in_reach_[i].first : most_move;
       if (to - from > same_distance && (!out || sum < out->cost - as_little)) out = Moved{(from + to) / 2, slope, sum};
       from = to;
-      if (i < samples_.size()) sum += samples_[i].cost;
+      if (i < in_reach_.size()) sum += in_reach_[i].second;
     }
     return out;
   }
@@ -165,6 +174,7 @@ class Sides {
  private:
   std::vector<Excess> samples_;
   double length_;
+  std::vector<std::pair<double, double>> in_reach_;  // m, and what it costs more outside
 };
 
 /// Where the side is to move in the piece; nothing where that is not worth a number.
@@ -242,9 +252,9 @@ auto goes_on(const Polygon& part, const FreeSide& side) -> bool {
 
 }  // namespace
 
-auto placed(const Polygon& part, Polygon piece, const Heights& measured, const Options& options, const OnPlanes& points)
-    -> Polygon {
-  const double area = points.heights.empty() ? measured.spacing * measured.spacing : points.area;
+auto placed(const Polygon& part, Polygon piece, const Heights& measured, const Options& options,
+            const OnPlanes& samples) -> Polygon {
+  const double area = are_points(samples) ? samples.area : measured.spacing * measured.spacing;
   for (std::size_t i = 0; i < piece.outer.size(); ++i) {
     auto& ring = piece.outer;
     const std::size_t n = ring.size(), h = (i + n - 1) % n, j = (i + 1) % n, k = (i + 2) % n;
@@ -252,7 +262,8 @@ auto placed(const Polygon& part, Polygon piece, const Heights& measured, const O
     const Point2 along = geometry::normalised(ring[j] - ring[i]);
     FreeSide side{ring[i], along, geometry::left_of(along), length(ring[j] - ring[i])};
     if (side.length < options.cuts.min_width || !is_free(part, side, options.outlines.near_line)) continue;
-    const auto move = move_of(samples_beside(side, part, measured, points, options.margin), side.length, area, options);
+    const auto move =
+        move_of(samples_beside(side, part, measured, samples, options.margin), side.length, area, options);
     // Walls go on in one line, but where the scan says that they do not.
     if (!move || (std::abs(move->at) <= options.margin && goes_on(part, side))) continue;
     const Point2 on = side.start + side.length / 2 * along + move->at * side.inward,

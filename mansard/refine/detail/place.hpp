@@ -15,6 +15,6 @@ namespace mansard::refine::detail {
 /// within 2 m of them, for points sides × points; where a side is not straight by them, times the turns that are
 /// tried, 2.5 a metre of its length.
 [[nodiscard]] auto placed(const geometry::Polygon& part, geometry::Polygon piece, const Heights& measured,
-                          const Options& options, const OnPlanes& points = {}) -> geometry::Polygon;
+                          const Options& options, const OnPlanes& samples = {}) -> geometry::Polygon;
 
 }  // namespace mansard::refine::detail

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <optional>
 
-#include "mansard/planes/planes.hpp"
 #include "mansard/refine/detail/order.hpp"
 #include "mansard/refine/detail/pieces.hpp"
 #include "mansard/refine/detail/place.hpp"
@@ -243,30 +242,6 @@ auto words_for(const carve::Raster& raster, const Cut& cut, const Options& optio
   return *rise > 0 ? "stands " + metres(*rise) + " above " + beside : "lies " + metres(-*rise) + " below " + beside;
 }
 
-/// The cells of a part, as samples of the planes that they are on.
-class CellsOnPlanes {
- public:
-  CellsOnPlanes(const Polygon& part, const Heights& measured, const Options& options)
-      : area_(measured.spacing * measured.spacing) {
-    std::vector<geometry::Point3> samples;
-    for (std::size_t k = 0; k < measured.z.size(); ++k) {
-      const geometry::Point2 at = measured.centre(k);
-      if (std::isnan(measured.z[k]) || !geometry::contains(part, at)) continue;
-      samples.push_back({at.x, at.y, measured.z[k]});
-      places_.push_back(at);
-      heights_.push_back(measured.z[k]);
-    }
-    planes_ = planes::find(samples, {.noise = options.samples.noise, .point_area = area_}).plane_of;
-  }
-  [[nodiscard]] auto samples() const -> OnPlanes { return {places_, planes_, heights_, area_}; }
-
- private:
-  std::vector<geometry::Point2> places_;
-  std::vector<std::uint32_t> planes_;
-  std::vector<double> heights_;
-  double area_;
-};
-
 /// Every so many cells of a fine grid.
 auto thinned(const Heights& heights, std::size_t every) -> Heights {
   Heights out{heights.origin,
@@ -282,9 +257,9 @@ auto thinned(const Heights& heights, std::size_t every) -> Heights {
 
 }  // namespace
 
-auto at_steps(const Polygon& part, const Polygon& piece, const Heights& measured, const OnPlanes& points,
+auto at_steps(const Polygon& part, const Polygon& piece, const Heights& measured, const OnPlanes& samples,
               const Options& options) -> std::optional<Polygon> {
-  Polygon at_step = placed(part, piece, measured, options, points);
+  Polygon at_step = placed(part, piece, measured, options, samples);
   // A side that was moved ends on the line of the side beside it, which may be past a corner of the part.
   if (at_step != piece) {
     auto inside = carve::pieces_in_part(part, at_step, options.pieces);
@@ -313,7 +288,7 @@ auto are_one(const Polygon& a, const Polygon& b) -> bool {
 }  // namespace
 
 auto propose(const Polygon& part, const Heights& measured, const Heights& model, double least_gain,
-             const Options& options, const OnPlanes& points) -> std::vector<Proposal> {
+             const Options& options, const OnPlanes& samples) -> std::vector<Proposal> {
   const std::size_t cells = measured.columns * measured.rows;
   if (part.outer.size() < 3 || cells == 0 || !(measured.spacing > 0)) return {};
   if (measured.z.size() != cells || model.z.size() != cells) return {};
@@ -326,15 +301,12 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
       carve::raster_of(part, measured, model, carve::direction_of(part, options.directions), options.directions);
   const carve::Raster turned = carve::turned(raster);
   consider_regions(part, raster, turned, carve::regions_of(raster, options), options, cuts);
-  std::optional<CellsOnPlanes> cells_on_planes;
-  if (points.places.empty()) cells_on_planes.emplace(part, measured, options);
-  const OnPlanes samples = cells_on_planes ? cells_on_planes->samples() : points;
   consider_regions(part, raster, turned, carve::regions_of_planes(raster, samples, least_gain, options), options, cuts);
   consider_lines(part, raster, false, least_gain, options, cuts);
   consider_lines(part, turned, true, least_gain, options, cuts);
   std::vector<Proposal> out;
   for (Cut& cut : std::move(cuts).best()) {
-    auto piece = at_steps(part, cut.polygon, measured, points, options);
+    auto piece = at_steps(part, cut.polygon, measured, samples, options);
     if (!piece || std::ranges::any_of(out, [&](const Proposal& o) { return are_one(o.polygon, *piece); })) continue;
     std::string what = words_for(as_measured, cut, options);
     out.push_back({std::move(*piece), cut.gain, std::move(what), cut.line});

@@ -24,7 +24,7 @@ struct Proposal {
 /// A piece of a part with its free sides where the scan has them (place.hpp), and with
 /// the part's own corners. None where polygon operations cannot tell the two apart, or too little is left.
 [[nodiscard]] auto at_steps(const geometry::Polygon& part, const geometry::Polygon& piece, const Heights& measured,
-                            const OnPlanes& points, const Options& options) -> std::optional<geometry::Polygon>;
+                            const OnPlanes& samples, const Options& options) -> std::optional<geometry::Polygon>;
 
 /// The cuts worth trying, best first.
 ///   1. Every polygon lies in the part, is simple, and leaves at least `least_area` on either side.
@@ -33,10 +33,9 @@ struct Proposal {
 /// Cost: O(n log n) in the cells.
 /// Measured and model share one grid; cells that are NaN in either count for nothing. `least_gain`, m²·m²: squared
 /// residual, summed over area, that a cut must explain.
-/// `points`: those of a scan that consists of points, with the planes that they are on; else the cells are put on
-/// planes.
+/// `samples`: of the scan, with the planes that they are on.
 [[nodiscard]] auto propose(const geometry::Polygon& part, const Heights& measured, const Heights& model,
-                           double least_gain, const Options& options, const OnPlanes& points = {})
+                           double least_gain, const Options& options, const OnPlanes& samples = {})
     -> std::vector<Proposal>;
 
 }  // namespace mansard::refine::detail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -292,7 +293,45 @@ auto in_margin_of(const Site& site, const Cells& cells, const Heights& grid) -> 
   };
 }
 
+/// Of a surface, by the cells of its grid.
+auto planes_by_cell(const Site& site) -> std::vector<std::uint32_t> {
+  if (site.of_points || site.plane_of.empty()) return {};
+  std::vector<std::uint32_t> out(site.measured.z.size(), planes::Found::none);
+  for (std::size_t i = 0; i < site.cells.size(); ++i) out[site.cells[i]] = site.plane_of[i];
+  return out;
+}
+
+/// The planes that the samples of a site are on, of a surface of which another site is known.
+void add_planes(Site& to, const Cells& cells, const std::vector<std::uint32_t>& planes) {
+  if (planes.empty()) return;
+  to.plane_of.resize(to.cells.size(), planes::Found::none);
+  const std::size_t columns = to.measured.columns;
+  for (std::size_t i = 0; i < to.cells.size(); ++i)
+    if (const auto other = cells.of(to.cells[i] % columns, to.cells[i] / columns);
+        other && to.plane_of[i] == planes::Found::none)
+      to.plane_of[i] = planes[*other];
+}
+
 }  // namespace
+
+void put_on_planes(std::span<Site* const> sites, const Options& options) {
+  std::map<double, std::vector<Site*>> by_spacing;
+  for (Site* site : sites)
+    if (!site->of_points) by_spacing[site->measured.spacing].push_back(site);
+  for (const auto& [spacing, alike] : by_spacing) {
+    std::vector<Point3> cells;
+    for (const Site* site : alike)
+      for (std::size_t i = 0; i < site->cells.size(); ++i)
+        cells.push_back({site->places[i].x, site->places[i].y, site->z[i] + site->base});
+    const auto found = planes::find(cells, {.noise = options.samples.noise, .point_area = spacing * spacing});
+    auto next = found.plane_of.begin();
+    for (Site* site : alike) {
+      const auto first = next;
+      next += static_cast<std::ptrdiff_t>(site->cells.size());
+      site->plane_of.assign(first, next);
+    }
+  }
+}
 
 auto crop(const Site& site, const Polygon& piece, const Options& options) -> Site {
   Site out = unseen_over(piece, site.base, site.measured.spacing);
@@ -304,6 +343,7 @@ auto crop(const Site& site, const Polygon& piece, const Options& options) -> Sit
   out.planes = site.planes;
   if (site.of_points) add_points(out, points_of(site), options);
   else finish(out, options, in_margin_of(site, cells, grid));
+  add_planes(out, cells, planes_by_cell(site));
   return out;
 }
 
@@ -311,8 +351,12 @@ auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene
             const Evidence* points) -> Site {
   Site out = unseen_over(both, a.base, spacing_over(both, options));
   auto& grid = out.measured;
-  if (a.measured.spacing != grid.spacing || b.measured.spacing != grid.spacing)
-    return look(both, a.base, mesh, options, points);
+  if (a.measured.spacing != grid.spacing || b.measured.spacing != grid.spacing) {
+    Site again = look(both, a.base, mesh, options, points);
+    Site* const one[]{&again};
+    put_on_planes(one, options);
+    return again;
+  }
   const Cells in_a(a.measured, grid), in_b(b.measured, grid);
   each_inside(both, grid, [&](std::size_t column, std::size_t row) {
     double& z = grid.z[row * grid.columns + column];
@@ -324,6 +368,8 @@ auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene
   const auto of_a = in_margin_of(a, in_a, grid), of_b = in_margin_of(b, in_b, grid);
   if (points == nullptr) finish(out, options, [&](std::size_t cell) { return of_a(cell) || of_b(cell); });
   else add_points(out, measured_over(both, a.base, *points), options);
+  add_planes(out, in_a, planes_by_cell(a));
+  add_planes(out, in_b, planes_by_cell(b));
   out.planes = a.planes;
   return out;
 }
@@ -335,6 +381,7 @@ auto without(const Site& site, const std::function<bool(Point2)>& taken, const O
     if (double& z = out.measured.z[cell]; !std::isnan(z) && taken(out.measured.centre(cell))) z = unseen;
   if (!site.of_points) {
     finish(out, options, [&](std::size_t cell) { return std::isfinite(site.limits[cell]); });
+    add_planes(out, Cells(site.measured, out.measured), planes_by_cell(site));
     return out;
   }
   out.planes = site.planes;

@@ -31,7 +31,7 @@ struct Site {
   std::vector<double> sorted;  ///< the heights
   double sample_area = 0;      ///< m²; that each stands for
   bool of_points = false;
-  std::vector<std::uint32_t> plane_of;    ///< of points: the plane that each is on, or none
+  std::vector<std::uint32_t> plane_of;    ///< the plane that each is on, or none; of a surface once it was looked for
   std::span<const planes::Plane> planes;  ///< of all points; their heights are not above the base
 
   Kernel kernel;  ///< by which the scan smooths, on this grid
@@ -62,6 +62,9 @@ struct Site {
 /// Both pieces of ground as one, the polygon of both given: what was sampled over them, and what is between them.
 [[nodiscard]] auto merged(const Site& a, const Site& b, const geometry::Polygon& both, const rays::Scene& mesh,
                           const Options& options, const Evidence* points = nullptr) -> Site;
+
+/// Looks for the planes of the surfaces over some sites, all together.
+void put_on_planes(std::span<Site* const> sites, const Options& options);
 
 /// The same without what is seen at some places.
 [[nodiscard]] auto without(const Site& site, const std::function<bool(geometry::Point2)>& taken, const Options& options)

@@ -59,7 +59,8 @@ auto z_beside(const Judged& roof, const Site& site, Point2 place) -> double {
 auto may_be_known(const Piece& piece) -> bool { return !piece.site.cells.empty() || !piece.site.ceilings.empty(); }
 
 auto on_planes_of(const Site& site) -> OnPlanes {
-  return site.of_points ? OnPlanes{site.places, site.plane_of, site.z, site.sample_area} : OnPlanes{};
+  if (site.plane_of.empty()) return {};
+  return {site.places, site.plane_of, site.z, site.sample_area, site.of_points};
 }
 
 auto square_metres(const Piece& piece) -> std::string {
