@@ -413,10 +413,13 @@ auto forms_of(const Plan& plan, const Site& site, const Options& options) -> std
     out.push_back({std::move(flat), misfit});
   }
 
+  std::vector<std::vector<bool>> tried;
   const auto propose = [&](const std::function<bool(std::size_t)>& carries_roof) {
     std::vector<bool> carries(sides.size());
     for (std::size_t p = 0; p < sides.size(); ++p) carries[p] = sides[p].length > 0 && carries_roof(p);
-    if (std::ranges::none_of(carries, [](bool c) { return c; })) return;
+    if (std::ranges::none_of(carries, [](bool c) { return c; }) || std::ranges::find(tried, carries) != tried.end())
+      return;
+    tried.push_back(carries);
     const auto looks = strips.looks_at(carries);
     const auto line = common_line(looks, options.lines);
     const auto give = [&](const Profile& roof, double gutter) {
