@@ -59,6 +59,34 @@ TEST(Look, takes_the_wall_of_a_tower_where_it_is_on_average) {
   }
 }
 
+TEST(Look, pieces_keep_the_planes_that_the_building_has) {
+  const auto mesh = waving_tower();
+  const refine::Options options;
+  const geometry::Polygon west{{{0, -8}, {10, -8}, {10, 8}, {0, 8}}, {}},
+      east{{{10, -8}, {20, -8}, {20, 8}, {10, 8}}, {}}, all{{{0, -8}, {20, -8}, {20, 8}, {0, 8}}, {}};
+  auto left = refine::detail::look(west, 0, mesh, options), right = refine::detail::look(east, 0, mesh, options);
+  refine::detail::Site* const both[]{&left, &right};
+  refine::detail::put_on_planes(both, options);
+  const auto plane_at = [](const refine::detail::Site& site, double x) {
+    for (std::size_t i = 0; i < site.cells.size(); ++i)
+      if (std::abs(site.places[i].x - x) < 0.13 && std::abs(site.places[i].y - 0.125) < 0.01) return site.plane_of[i];
+    return planes::Found::none;
+  };
+  const auto tower = plane_at(left, 8), low = plane_at(left, 2), behind = plane_at(right, 18);
+  EXPECT_NE(tower, planes::Found::none);
+  EXPECT_NE(tower, low);
+  EXPECT_NE(tower, behind);
+  EXPECT_EQ(plane_at(right, 12), tower) << "it goes on past the line between them";
+  const auto whole = refine::detail::merged(left, right, all, mesh, options);
+  EXPECT_EQ(whole.plane_of.size(), whole.cells.size());
+  EXPECT_EQ(plane_at(whole, 2), low);
+  EXPECT_EQ(plane_at(whole, 12), tower);
+  EXPECT_EQ(plane_at(whole, 18), behind);
+  const auto piece = refine::detail::crop(whole, {{{7, -3}, {13, -3}, {13, 3}, {7, 3}}, {}}, options);
+  EXPECT_EQ(plane_at(piece, 8), tower);
+  EXPECT_EQ(plane_at(piece, 12), tower);
+}
+
 TEST(Look, pieces_know_which_of_their_margins_are_the_building_s) {
   const auto mesh = waving_tower();
   const refine::Options options;

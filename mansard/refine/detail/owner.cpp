@@ -84,6 +84,9 @@ class Pieces {
           next.push_back(std::move(pieces_[i]));
         }
         for (auto& piece : found[i]) next.push_back(numbered(std::move(piece)));
+        // As one they were searched for cuts just now.
+        if (found[i].size() == 2)
+          pairs_[std::minmax(next[next.size() - 2].number, next[next.size() - 1].number)].was_cut = true;
       }
       const bool done = next.size() == pieces_.size();
       pieces_ = std::move(next);

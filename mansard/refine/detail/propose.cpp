@@ -255,6 +255,14 @@ auto thinned(const Heights& heights, std::size_t every) -> Heights {
   return out;
 }
 
+/// What cuts are held against.
+auto thinned_raster(const Polygon& part, const Heights& measured, const Heights& model, const Options& options)
+    -> carve::Raster {
+  const double in_part = geometry::area(part) / (measured.spacing * measured.spacing);
+  const auto every = static_cast<std::size_t>(std::ceil(std::sqrt(std::max(1.0, in_part / options.cuts.max_cells))));
+  return carve::raster_of(part, thinned(measured, every), thinned(model, every), {}, options.directions);
+}
+
 }  // namespace
 
 auto at_steps(const Polygon& part, const Polygon& piece, const Heights& measured, const OnPlanes& samples,
@@ -292,10 +300,7 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   const std::size_t cells = measured.columns * measured.rows;
   if (part.outer.size() < 3 || cells == 0 || !(measured.spacing > 0)) return {};
   if (measured.z.size() != cells || model.z.size() != cells) return {};
-  const double in_part = geometry::area(part) / (measured.spacing * measured.spacing);
-  const auto every = static_cast<std::size_t>(std::ceil(std::sqrt(std::max(1.0, in_part / options.cuts.max_cells))));
-  const carve::Raster as_measured =
-      carve::raster_of(part, thinned(measured, every), thinned(model, every), {}, options.directions);
+  const carve::Raster as_measured = thinned_raster(part, measured, model, options);
   Cuts cuts(as_measured, geometry::area(part), least_gain, options);
   const carve::Raster raster =
       carve::raster_of(part, measured, model, carve::direction_of(part, options.directions), options.directions);
@@ -314,6 +319,13 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   rank(
       out, [](const Proposal& proposal) { return -proposal.gain; }, options.same_cost);
   return out;
+}
+
+auto gain_of(const Polygon& part, const Polygon& piece, geometry::Point2 along, const Heights& measured,
+             const Heights& model, const Options& options) -> double {
+  const carve::Raster raster = thinned_raster(part, measured, model, options);
+  const auto errors = carve::errors_of(raster, carve::cells_in(piece, raster), {along}, options.surfaces);
+  return carve::gain_of(errors, options.surfaces) * raster.cell_area();
 }
 
 }  // namespace mansard::refine::detail

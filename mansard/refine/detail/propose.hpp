@@ -38,4 +38,9 @@ struct Proposal {
                            double least_gain, const Options& options, const OnPlanes& samples = {})
     -> std::vector<Proposal>;
 
+/// The same of cuts that are known: Proposal::gain of each piece. `along`, unit: of a ridge that it may have, or across
+/// that.
+[[nodiscard]] auto gain_of(const geometry::Polygon& part, const geometry::Polygon& piece, geometry::Point2 along,
+                           const Heights& measured, const Heights& model, const Options& options) -> double;
+
 }  // namespace mansard::refine::detail
