@@ -51,6 +51,8 @@ WHY = {
     "block_A_3 `{23D1C43E-FAD1-4BF9-86A9-74178BD0697E}`": FEW + "; many parts",
     "block_A_3 `{EA541FCF-CC5D-4317-A6DA-D4BD6496A9A2}`": FEW + "; a hip that is parallel to no wall",
     "block_A_perfect `{EA541FCF-CC5D-4317-A6DA-D4BD6496A9A2}`": "an exact scan: differences of centimetres are significant, and worth a search",
+    "block_A_8 `{EA541FCF-CC5D-4317-A6DA-D4BD6496A9A2}`": "a hip that is parallel to no wall",
+    "delft `b31bd3852-00ba-11e6-b420-2bdcc4ab5d7f`": "few samples on 41 m², while making a roof costs the same",
     "b9 `main`": CLUTTER,
     "zhongshan_L19 `B2`": CLUTTER,
     "zhongshan_L19 `B3`": CLUTTER + "; its parts are united",
