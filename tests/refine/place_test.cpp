@@ -79,7 +79,7 @@ struct Points {
   std::vector<Point2> places;
   std::vector<std::uint32_t> planes;
   std::vector<double> heights;
-  [[nodiscard]] auto seen() const -> refine::detail::OnPlanes { return {places, planes, heights, 0.1}; }
+  [[nodiscard]] auto seen() const -> refine::detail::OnPlanes { return {places, planes, heights, 0.1, true}; }
 };
 auto measured(const Roof& roof) -> Points {
   Points out;

@@ -286,7 +286,7 @@ TEST(Propose, what_lies_on_a_plane_of_its_own_although_it_is_no_step) {
   const auto has_it = [&](const std::vector<Proposal>& all) {
     return std::ranges::any_of(all, [&](const Proposal& one) { return cut_distance(one, house, pitch) < 4; });
   };
-  EXPECT_TRUE(has_it(propose(house, measured, model, 0.1, options, {places, planes, heights, 0.16})));
+  EXPECT_TRUE(has_it(propose(house, measured, model, 0.1, options, {places, planes, heights, 0.16, true})));
   EXPECT_FALSE(has_it(propose(house, measured, model, 0.1, options)));
 }
 

@@ -64,9 +64,10 @@ TEST(Look, pieces_keep_the_planes_that_the_building_has) {
   const refine::Options options;
   const geometry::Polygon west{{{0, -8}, {10, -8}, {10, 8}, {0, 8}}, {}},
       east{{{10, -8}, {20, -8}, {20, 8}, {10, 8}}, {}}, all{{{0, -8}, {20, -8}, {20, 8}, {0, 8}}, {}};
-  auto left = refine::detail::look(west, 0, mesh, options), right = refine::detail::look(east, 0, mesh, options);
-  refine::detail::Site* const both[]{&left, &right};
+  refine::detail::Site both[]{refine::detail::look(west, 0, mesh, options),
+                              refine::detail::look(east, 0, mesh, options)};
   refine::detail::put_on_planes(both, options);
+  const auto& [left, right] = both;
   const auto plane_at = [](const refine::detail::Site& site, double x) {
     for (std::size_t i = 0; i < site.cells.size(); ++i)
       if (std::abs(site.places[i].x - x) < 0.13 && std::abs(site.places[i].y - 0.125) < 0.01) return site.plane_of[i];

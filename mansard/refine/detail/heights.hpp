@@ -35,7 +35,7 @@ struct OnPlanes {
   std::span<const std::uint32_t> planes;  ///< of each: a number of a plane, or one of planes::Found
   std::span<const double> heights;        ///< of each; m above the base
   double area = 0;                        ///< m²: the ground of one
-  bool of_points = true;
+  bool of_points = false;
 };
 
 /// Where the line of that y crosses the edge, if it does; an end counts for one of the two edges that share it.

@@ -263,9 +263,7 @@ auto refine_owner(std::span<const Draft> drafts, std::span<const std::size_t> mi
     const auto& plan = drafts[mine[k]].plan;
     sites[k] = work.look(model::polygon_of(plan), plan.base);
   });
-  std::vector<Site*> all;
-  for (Site& site : sites) all.push_back(&site);
-  if (options.effort == Effort::parts) put_on_planes(all, options);
+  if (options.effort == Effort::parts) put_on_planes(sites, options);
   std::vector<std::optional<base::Result<Piece>>> roofed(mine.size());
   base::parallel_for(mine.size(),
                      [&](std::size_t k) { roofed[k] = work.roofed(mine[k], std::move(sites[k]), drafts[mine[k]]); });

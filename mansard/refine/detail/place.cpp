@@ -37,12 +37,10 @@ constexpr double as_little = 1e-9;
 
 constexpr double beside_reach = most_move + read;
 
-auto are_points(const OnPlanes& samples) -> bool { return samples.of_points && !samples.heights.empty(); }
-
 /// Calls see(place, height) for what is sampled near the side.
 template <class See>
 void each_near(const FreeSide& side, const Heights& grid, const OnPlanes& samples, See see) {
-  if (are_points(samples)) {
+  if (samples.of_points) {
     for (std::size_t i = 0; i < samples.heights.size(); ++i) see(samples.places[i], samples.heights[i]);
     return;
   }
@@ -254,7 +252,7 @@ auto goes_on(const Polygon& part, const FreeSide& side) -> bool {
 
 auto placed(const Polygon& part, Polygon piece, const Heights& measured, const Options& options,
             const OnPlanes& samples) -> Polygon {
-  const double area = are_points(samples) ? samples.area : measured.spacing * measured.spacing;
+  const double area = samples.of_points ? samples.area : measured.spacing * measured.spacing;
   for (std::size_t i = 0; i < piece.outer.size(); ++i) {
     auto& ring = piece.outer;
     const std::size_t n = ring.size(), h = (i + n - 1) % n, j = (i + 1) % n, k = (i + 2) % n;

@@ -255,7 +255,7 @@ auto thinned(const Heights& heights, std::size_t every) -> Heights {
   return out;
 }
 
-/// What cuts are held against.
+/// What cuts are compared with.
 auto thinned_raster(const Polygon& part, const Heights& measured, const Heights& model, const Options& options)
     -> carve::Raster {
   const double in_part = geometry::area(part) / (measured.spacing * measured.spacing);
@@ -321,11 +321,12 @@ auto propose(const Polygon& part, const Heights& measured, const Heights& model,
   return out;
 }
 
-auto gain_of(const Polygon& part, const Polygon& piece, geometry::Point2 along, const Heights& measured,
-             const Heights& model, const Options& options) -> double {
-  const carve::Raster raster = thinned_raster(part, measured, model, options);
-  const auto errors = carve::errors_of(raster, carve::cells_in(piece, raster), {along}, options.surfaces);
-  return carve::gain_of(errors, options.surfaces) * raster.cell_area();
+Gains::Gains(const Polygon& part, const Heights& measured, const Heights& model, const Options& options)
+    : raster_(thinned_raster(part, measured, model, options)), options_(options) {}
+
+auto Gains::of(const Polygon& piece, geometry::Point2 along) const -> double {
+  const auto errors = carve::errors_of(raster_, carve::cells_in(piece, raster_), {along}, options_.surfaces);
+  return carve::gain_of(errors, options_.surfaces) * raster_.cell_area();
 }
 
 }  // namespace mansard::refine::detail

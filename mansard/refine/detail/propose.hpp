@@ -8,6 +8,7 @@
 
 #include "mansard/geometry/polygon.hpp"
 #include "mansard/refine/detail/heights.hpp"
+#include "mansard/refine/detail/propose_raster.hpp"
 #include "mansard/refine/options.hpp"
 
 namespace mansard::refine::detail {
@@ -38,9 +39,16 @@ struct Proposal {
                            double least_gain, const Options& options, const OnPlanes& samples = {})
     -> std::vector<Proposal>;
 
-/// The same of cuts that are known: Proposal::gain of each piece. `along`, unit: of a ridge that it may have, or across
-/// that.
-[[nodiscard]] auto gain_of(const geometry::Polygon& part, const geometry::Polygon& piece, geometry::Point2 along,
-                           const Heights& measured, const Heights& model, const Options& options) -> double;
+/// Proposal::gain of cuts that are known. The options must outlive it.
+class Gains {
+ public:
+  Gains(const geometry::Polygon& part, const Heights& measured, const Heights& model, const Options& options);
+  /// `along`, unit: of a ridge that the piece may have, or across that.
+  [[nodiscard]] auto of(const geometry::Polygon& piece, geometry::Point2 along) const -> double;
+
+ private:
+  carve::Raster raster_;
+  const Options& options_;
+};
 
 }  // namespace mansard::refine::detail

@@ -314,10 +314,10 @@ void add_planes(Site& to, const Cells& cells, const std::vector<std::uint32_t>& 
 
 }  // namespace
 
-void put_on_planes(std::span<Site* const> sites, const Options& options) {
+void put_on_planes(std::span<Site> sites, const Options& options) {
   std::map<double, std::vector<Site*>> by_spacing;
-  for (Site* site : sites)
-    if (!site->of_points) by_spacing[site->measured.spacing].push_back(site);
+  for (Site& site : sites)
+    if (!site.of_points) by_spacing[site.measured.spacing].push_back(&site);
   for (const auto& [spacing, alike] : by_spacing) {
     std::vector<Point3> cells;
     for (const Site* site : alike)
@@ -353,8 +353,7 @@ auto merged(const Site& a, const Site& b, const Polygon& both, const rays::Scene
   auto& grid = out.measured;
   if (a.measured.spacing != grid.spacing || b.measured.spacing != grid.spacing) {
     Site again = look(both, a.base, mesh, options, points);
-    Site* const one[]{&again};
-    put_on_planes(one, options);
+    put_on_planes({&again, 1}, options);
     return again;
   }
   const Cells in_a(a.measured, grid), in_b(b.measured, grid);

@@ -64,7 +64,7 @@ struct Site {
                           const Options& options, const Evidence* points = nullptr) -> Site;
 
 /// Looks for the planes of the surfaces over some sites, all together.
-void put_on_planes(std::span<Site* const> sites, const Options& options);
+void put_on_planes(std::span<Site> sites, const Options& options);
 
 /// The same without what is seen at some places.
 [[nodiscard]] auto without(const Site& site, const std::function<bool(geometry::Point2)>& taken, const Options& options)

@@ -250,12 +250,14 @@ auto Work::wings_of(const Piece& piece, double least_gain) const -> std::vector<
       lines, [](const Promising& one) { return -one.about; }, options_.same_cost);
   const auto most = static_cast<std::size_t>(options_.wings.max_cuts);
   std::vector<Proposal> wings;
+  if (lines.empty()) return wings;
   Heights model = piece.site.measured;
   model.z = piece.roof.view.z;
+  const Gains gains(piece.site.polygon, piece.site.measured, model, options_);
   for (const auto& [line, about] : lines) {
     if (wings.size() >= most) break;
     for (auto& wing : wings_along(piece.site.polygon, line, options_)) {
-      const double gain = gain_of(piece.site.polygon, wing, line.along, piece.site.measured, model, options_);
+      const double gain = gains.of(wing, line.along);
       if (gain >= explained_of_wing * least_gain) wings.push_back({std::move(wing), gain, "a wing", true});
     }
   }
