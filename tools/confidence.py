@@ -193,7 +193,6 @@ inline constexpr std::array<Term, {len(lines)}> terms{{{{
 """
     pathlib.Path(header).write_text(text, encoding="utf-8")
     subprocess.run(["clang-format", "-i", header], check=False)
-    np.savez(out / "model.npz", bias=bias, weights=weights)
     print(f"{len(rows)} models, {int(wrong.sum())} wrong; area under the curve {area_under_curve(terms @ weights, wrong):.3f} in training")
 
 
@@ -206,16 +205,10 @@ def groups_of(rows, name_of):
 
 
 def test(out, pictures):
-    rows = [row for row in rows_of(out) if row[0]["scan"] in HELD_OUT]
-    buildings = [building for _, building in rows]
-    wrong = np.array([b["mse"] > WRONG for b in buildings])
-    model = np.load(out / "model.npz")
-    p = 1 / (1 + np.exp(-(model["bias"] + term_values(buildings) @ model["weights"])))
-    source = "by the coefficients"
-    said = np.array([1 - b["said"]["right"] if b["said"] else np.nan for b in buildings])
-    if np.nanmax(abs(said - p)) < 0.01:  # made by a program with these coefficients
-        p, source = said, "as the program says"
-    print(f"{len(rows)} models, {int(wrong.sum())} wrong, {source}; area under the curve {area_under_curve(p, wrong):.3f}")
+    rows = [row for row in rows_of(out) if row[0]["scan"] in HELD_OUT and row[1]["said"]]
+    wrong = np.array([building["mse"] > WRONG for _, building in rows])
+    p = np.array([1 - building["said"]["right"] for _, building in rows])
+    print(f"{len(rows)} models, {int(wrong.sum())} wrong; area under the curve {area_under_curve(p, wrong):.3f}")
     for limit in (0.1, 0.15, 0.2, 0.3, 0.5):
         print(f"flagged from {limit}: {100 * (p[wrong] >= limit).mean():.0f} % of the wrong, {100 * (p[~wrong] >= limit).mean():.0f} % of the right")
     print("| said to be right | models | right |")

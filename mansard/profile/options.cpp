@@ -20,9 +20,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("run_angle", o.run_angle, "rad", {0, 0.7},
               "Consecutive edges that turn by less than this share a profile.")
       .source("reference implementation chordatlas: 0.1 rad");
-  list.number("low_height", o.low_height, "m", {0, 20},
-              "Height above ground below which cars, hedges and shops are expected and tolerances are wide.")
-      .source("reference implementation chordatlas: 2 m");
   list.choice("overhangs", o.overhangs,
               {{"off", Overhangs::off}, {"measured", Overhangs::measured}, {"soffits", Overhangs::soffits}},
               "Overhanging eaves of a scan that shows the walls below them: not looked for, measured as attributes, or "
@@ -58,9 +55,6 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.number("climb_near", o.climb_near, "m", {0.05, 20}, "Distance from an edge within which its wall is looked for.")
       .advanced("chosen by hand; not measured");
-  list.number("climb_above_low", o.climb_above_low, "m", {0, 20},
-              "Height above profile.low_height at which a wall is looked for.")
-      .advanced("chosen by hand; not measured");
   list.number("climb_clear", o.climb_clear, "m", {0, 20}, "Height above ground below which mesh is terrain.")
       .advanced("chosen by hand; not measured");
   list.number("climb_roof_first", o.climb_roof_first, "m", {0, 20},
@@ -74,11 +68,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("column_width", o.column_width, "m", {0.02, 5},
               "Width of the columns in which the heights of a slice are kept.")
       .advanced("as wide as slices are apart; not measured");
-  list.number("far_wall", o.far_wall, "m", {0, 20}, "Distance before the far wall at which a slice ends.")
-      .advanced("chosen by hand; not measured");
-  list.number("far_wall_from", o.far_wall_from, "m", {0, 50},
-              "Minimum length of a slice that ends before the far wall.")
-      .advanced("chosen by hand; not measured");
   list.number("wall_deepest", o.wall_deepest, "m", {0, 20},
               "Maximum distance inside an edge by which a wall moves the start of its roof.")
       .advanced("chosen by hand; not measured");

@@ -23,7 +23,6 @@ struct Options {
   double support = 0.2;         ///< share of an edge's slices that must support a line
   double vertical_angle = 0.1;  ///< rad; lines this near to vertical become vertical
   double run_angle = 0.1;       ///< rad; edges turning less than this share a profile
-  double low_height = 2.0;      ///< m above ground; below, tolerances are wider (cars, hedges, shops)
 
   Overhangs overhangs = Overhangs::off;
   double overhang_min = 0.15;     ///< m
@@ -32,7 +31,7 @@ struct Options {
 
   // Overhanging eaves.
   double overhang_wall = 0.8;   ///< m of wall below the eaves, at least
-  double overhang_clear = 0.3;  ///< m below the deepest edge of the roof, and above low_height, where no wall is read
+  double overhang_clear = 0.3;  ///< m below the deepest edge of the roof where no wall is read
   /// Minimum share of the height of the wall below the eaves that a slice shows. Chosen by hand; not measured.
   double overhang_shadow = 0.5;
   double overhang_near = 0.5;    ///< m between the plan's edge and the wall, at most
@@ -51,12 +50,9 @@ struct Options {
 
   // The climb.
   double climb_near = 1.5;        ///< m; the climb starts this near to the foot
-  double climb_above_low = 0.5;   ///< m above low_height where the climb starts
   double climb_clear = 1.0;       ///< m above ground; lower pieces are terrain
   double climb_roof_first = 0.6;  ///< m inward of the edge where, without a wall, a roof is looked for first
   double climb_roof_next = 0.3;   ///< m between that and the next places
-  /// Weight of mesh below profile.low_height in the position of a wall. Chosen by hand; not measured.
-  double wall_low_weight = 0.2;
   /// Maximum lean of a piece of wall, as a multiple of the tangent of profile.vertical_angle. Chosen by hand; not
   /// measured.
   double wall_lean =
@@ -64,11 +60,9 @@ struct Options {
   double wall_minimum = 1.0;  ///< m; less is no wall
 
   // Columns of heights, and where they rise.
-  double column_width = 0.2;   ///< m
-  double far_wall = 0.4;       ///< m before the far wall where a slice ends
-  double far_wall_from = 2.0;  ///< m; shorter slices go on to it
-  double wall_deepest = 1.5;   ///< m inward of the edge; a wall farther in does not move the start of the roof any more
-  double corner = 0.3;         ///< m; scans round off gutters and ridges; no option
+  double column_width = 0.2;  ///< m
+  double wall_deepest = 1.5;  ///< m inward of the edge; a wall farther in does not move the start of the roof any more
+  double corner = 0.3;        ///< m; scans round off gutters and ridges; no option
   /// Minimum slope of a roof that rises. Chosen by hand; not measured.
   double rising_slope = 0.1;
   /// Maximum slope of a roof along its edge, as a share of the slope across. Chosen by hand; not measured.

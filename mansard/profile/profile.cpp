@@ -47,7 +47,7 @@ auto slices_of(const Polygon& polygon, const Run& run, const detail::SectionInde
     const auto climb = detail::climb(pieces, options, base);
     if (!climb) continue;
     ++evidence.slices;
-    const auto wall = detail::wall_position(*climb, options, base);
+    const auto wall = detail::wall_position(*climb, options);
     if (wall) walls.push_back(*wall);
     slices.push_back(detail::columns_of(pieces, sample, base, wall, options));
   }

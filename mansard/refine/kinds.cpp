@@ -148,9 +148,47 @@ class Shaping {
       for (std::size_t p = 0; p < plan.profiles.size(); ++p)
         plan.profiles[p] = carries[p] ? *roof : detail::wall(roof->at(1).height, options_.forms);
       auto judged = judge_(uncut(std::move(plan)));
-      if (judged) take(not_above(settled(std::move(*judged), true)), best);
+      if (!judged) continue;
+      auto gable = not_above(settled(std::move(*judged), true));
+      if (kind != Kind::half_hip && kind != Kind::gablet) take(std::move(gable), best);
+      else if (auto with = ended(kind, gable, carries)) take(not_above(std::move(*with)), best);
     }
     if (best) take(not_above(settled_by_edge(*best)), best);
+    return best;
+  }
+
+  /// A gable whose ends slope above, or below, a share of its height; none where no end is free.
+  [[nodiscard]] static auto with_ends(Kind kind, const Judged& gable, const std::vector<bool>& carries, double share)
+      -> std::optional<Plan> {
+    Plan plan = gable.plan;
+    const double top = highest_of(gable.sketch) - plan.base;
+    double gutter = 0, slope = 0;  // of the steepest side
+    for (std::size_t p = 0; p < plan.profiles.size(); ++p) {
+      if (!carries[p] || plan.profiles[p].size() < 3) continue;
+      const auto &foot = plan.profiles[p][1], &head = plan.profiles[p].back();
+      const double own = (head.height - foot.height) / std::max(head.inward - foot.inward, apex_distance);
+      if (own > slope) slope = own, gutter = foot.height;
+    }
+    if (!(slope > 0) || !(top > gutter)) return std::nullopt;
+    const double height = gutter + share * (top - gutter), run = (height - gutter) / slope;
+    bool any = false;
+    for (std::size_t p = 0; p + 1 < plan.profiles.size(); ++p) {  // the last is of edges with neighbours
+      if (carries[p]) continue;
+      any = true;
+      plan.profiles[p] = kind == Kind::half_hip ? detail::pitched(height, slope)
+                                                : Profile{{0, 0}, {0, gutter}, {run, height}, {run, top}};
+    }
+    return any ? std::optional(uncut(std::move(plan))) : std::nullopt;
+  }
+
+  /// The same at the share that suits the scan: lines through samples find where a slope is, but no wall between two.
+  [[nodiscard]] auto ended(Kind kind, const Judged& gable, const std::vector<bool>& carries) const
+      -> std::optional<Judged> {
+    constexpr int shares = 16;
+    std::optional<Judged> best;
+    for (int i = 1; i < shares; ++i)
+      if (const auto plan = with_ends(kind, gable, carries, static_cast<double>(i) / shares)) take(judge_(*plan), best);
+    if (best) best = settled(std::move(*best), true);
     return best;
   }
 
@@ -300,8 +338,8 @@ auto unseen() -> base::Diagnostic {
 }  // namespace
 
 auto to_string(Kind kind) -> std::string_view {
-  constexpr std::array<std::string_view, kinds.size()> names{"flat",    "shed",    "gable",  "hip",
-                                                             "pyramid", "gambrel", "mansard"};
+  constexpr std::array<std::string_view, kinds.size()> names{"flat",   "shed",    "gable",   "hip",    "half-hip",
+                                                             "gablet", "pyramid", "gambrel", "mansard"};
   return names[static_cast<std::size_t>(kind)];
 }
 

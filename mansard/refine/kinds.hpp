@@ -13,15 +13,17 @@ namespace mansard::refine {
 
 enum class Kind : std::uint8_t {
   flat,
-  shed,     ///< slopes on sides that face one way
-  gable,    ///< slopes on sides that face two opposite ways
-  hip,      ///< slopes on all sides
-  pyramid,  ///< slopes on all sides that meet in one point
-  gambrel,  ///< as a gable, each slope with a steep foot
-  mansard,  ///< as a hip, each slope with a steep foot
+  shed,      ///< slopes on sides that face one way
+  gable,     ///< slopes on sides that face two opposite ways
+  hip,       ///< slopes on all sides
+  half_hip,  ///< as a gable, the tops of whose ends slope
+  gablet,    ///< as a hip, the tops of whose ends are upright
+  pyramid,   ///< slopes on all sides that meet in one point
+  gambrel,   ///< as a gable, each slope with a steep foot
+  mansard,   ///< as a hip, each slope with a steep foot
 };
-inline constexpr std::array kinds{Kind::flat,    Kind::shed,    Kind::gable,  Kind::hip,
-                                  Kind::pyramid, Kind::gambrel, Kind::mansard};
+inline constexpr std::array kinds{Kind::flat,   Kind::shed,    Kind::gable,   Kind::hip,    Kind::half_hip,
+                                  Kind::gablet, Kind::pyramid, Kind::gambrel, Kind::mansard};
 [[nodiscard]] auto to_string(Kind kind) -> std::string_view;
 
 /// The outline of `plan` with the cheapest roof of the kind: its direction, and the gutter, pitch and knot of the sides

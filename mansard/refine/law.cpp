@@ -28,6 +28,9 @@ constexpr double number_of_detail = 1.0 / 14;
 constexpr double most_margin = 0.4, most_melt = 0.5;
 /// Standard deviations: 99 % of what is smoothed is nearer to its edge.
 constexpr double reach = 2.5;
+/// Blurs: what rounds the edges of a plane moves all of it, up or down, and no number of samples takes that off. Block
+/// A's mesh tells heights of roofs apart from a tenth of its blur on (decision 169).
+constexpr double bias_of_blur = 0.15;
 /// m: kernels of five cells of 0.25 m and of solids that were smoothed by more, whose tall steps are no wider.
 constexpr double most_blur = 0.25;
 
@@ -88,6 +91,7 @@ auto decided_by(Options o, const model::Accuracy& scan) -> Options {
       blur + rough > 0 ? (weight_of_rounded * blur + weight_of_rough * rough) / (blur + rough) : weight_of_rough;
   o.samples.melt = std::clamp(reach * edge, o.grid / 2, most_melt);  // a sample is of all of its cell
   o.samples.blur = std::min(most_blur, edge);
+  o.alike.bias = points ? 0 : bias_of_blur * scan.blur;
   o.lines.robust = std::max(least_robust, reach * scan.noise);
   o.lines.min_spread = std::clamp(spread_of_slope * scan.noise, least_spread, most_spread);
 

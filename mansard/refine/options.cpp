@@ -9,7 +9,6 @@ using base::Range;
 constexpr const char* by_hand = "chosen by hand; not measured";
 constexpr const char* decision_14 = "docs/decisions/0014-refined-by-measured-error.md";
 constexpr const char* decision_17 = "docs/decisions/0017-setbacks-by-measured-error.md";
-constexpr const char* decision_39 = "docs/decisions/0039-alike-what-is-alike.md";
 constexpr const char* decision_41 = "docs/decisions/0041-faces-want-evidence.md";
 constexpr const char* decision_137 = "docs/decisions/0137-planes-propose.md";
 constexpr const char* decision_87 = "docs/decisions/0087-dormers-by-default.md";
@@ -21,7 +20,6 @@ constexpr Range positive_length{0.01, 100};  // m
 constexpr Range height{0, 1000};             // m
 constexpr Range slope{0, 100};               // rise per run
 constexpr Range area{0, 10'000};             // m²
-constexpr Range positive_area{0.01, 1e9};    // m²
 constexpr Range angle{0, 1.6};               // rad; directions repeat after a quarter turn
 
 void add_objective(OptionList& list, Options& o) {
@@ -76,26 +74,12 @@ void add_setback(OptionList& list, Options::Setback& o) {
       .advanced(decision_17);
 }
 
-void add_refit(OptionList& list, Options::Refit& o) {
-  list.number("refit_max_knot_move", o.max_knot_move, "m", length,
-              "A profile whose knot would move farther than this stays as it is.")
-      .advanced(by_hand);
-}
-
 void add_sharpen(OptionList& list, Options::Sharpen& o) {
   list.number(
           "sharpen_level_slope", o.level_slope, "", slope,
           "A roof with no greater slope (rise per run) becomes a flat one where its pitches explain little of what a "
           "flat one leaves.")
       .advanced("0.6 is 31°; docs/decisions/0102-pitches-that-explain-little.md");
-}
-
-void add_alike(OptionList& list, Options::Alike& o) {
-  list.number(
-          "alike_most_ground", o.most_ground, "m²", positive_area,
-          "A roof plane over more ground than this counts as over this much where heights and pitches are made equal: "
-          "what is wrong with a scan over several metres does not become less with more samples.")
-      .advanced(decision_39);
 }
 
 void add_pieces(OptionList& list, Options::Pieces& o) {
@@ -189,16 +173,11 @@ void add_outlines(OptionList& list, Options::Outlines& o) {
 
 void add_splits(OptionList& list, Options::Splits& o) {
   list.number("splits_apart", o.apart, "m", length, "Two lines across a part are at least this far apart.")
-      .advanced(by_hand)
-      .number("splits_min_valley", o.min_valley, "m", height,
-              "A row has a valley where both sides are at least this much above its middle.")
       .advanced(by_hand);
 }
 
 void add_surfaces(OptionList& list, Options::Surfaces& o) {
-  list.number("surfaces_ridge_min_area", o.ridge_min_area, "m²", area, "A ridge is tried on an area of at least this.")
-      .advanced("on less, a ridge fits the crown of a tree as well as a roof; not measured")
-      .number("surfaces_max_slope", o.max_slope, "", slope,
+  list.number("surfaces_max_slope", o.max_slope, "", slope,
               "A ridge whose sides have a greater slope (rise per run) is not a roof.")
       .advanced("1.5 is 56°; steeper is a wall that melted; not measured");
 }
@@ -211,9 +190,7 @@ auto option_list(Options& o) -> OptionList {
   add_forms(list, o.forms);
   add_mansard(list, o.mansard);
   add_setback(list, o.setback);
-  add_refit(list, o.refit);
   add_sharpen(list, o.sharpen);
-  add_alike(list, o.alike);
   add_pieces(list, o.pieces);
   add_bare(list, o.bare);
   add_tall(list, o.tall);

@@ -117,7 +117,6 @@ struct Options {
     std::int64_t min_samples = 4;
     /// A cap with fewer samples on its faces stays as it is. Chosen by hand; not measured.
     std::int64_t min_cap_samples = 8;
-    double max_knot_move = 1.5;  ///< m
   } refit;
 
   /// The best roof over a fixed outline (roof_search).
@@ -164,7 +163,7 @@ struct Options {
 
   /// Eaves, ridges and pitches made equal (alike).
   struct Alike {
-    double most_ground = 10;  ///< m²
+    double bias = 0;  ///< m; what is wrong with the height of a plane however large it is. No option: decided_by
   } alike;
 
   /// Plans cut in two and joined (pieces).
@@ -310,13 +309,11 @@ struct Options {
     /// A row has a step where it has at least this share of refine.cuts_min_step. Clear of the noise of one row; not
     /// measured.
     double step_share = 0.7;
-    double min_valley = 0.15;  ///< m
   } splits;
 
   /// Simple surfaces that cuts are judged by (propose_surface).
   struct Surfaces {
     static constexpr double bin = 0.5;  ///< m; of the grid
-    double ridge_min_area = 30;         ///< m²
     double max_slope = 1.5;
     /// A cut is evaluated by what two surfaces explain beyond one where one explains at least all but this share of the
     /// model's error. Chosen by hand; not measured.

@@ -84,14 +84,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("smallest_part", o.smallest_part, "m²", {0, 1000},
               "Parts with less area than this are joined to a neighbour or left out.")
       .advanced("chosen by hand; not measured");
-  list.number("strip_level", o.strip_level, "m", {0, 100},
-              "Lower narrow parts are buildings of their own where enough heights are within this of each other.")
-      .advanced("docs/decisions/0034");
-  list.number("strip_share", o.strip_share, "", {0, 1},
-              "Share of the heights of a low narrow part that must be within strip_level of each other; a part with "
-              "less is "
-              "a blurred wall and is left out.")
-      .advanced("docs/decisions/0112");
   list.number("collinear", o.collinear, "m", {0, 1},
               "Corners of a part nearer than this to the edge without them are removed.")
       .advanced("a tenth of what surveys resolve; not measured");

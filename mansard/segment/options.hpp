@@ -87,9 +87,7 @@ struct Options {
   double smallest_part = 1.0;  ///< m²; smaller parts go to their neighbour, or out
   /// Narrow parts of at least this share of their neighbour's height are part of its roof. Docs/decisions/0013.
   double low_share = 0.5;
-  double strip_level = 1.0;  ///< m; lower strips are buildings where heights within this of each other …
-  double strip_share = 0;    ///< … are at least this share of all; 0: all strips are
-  double collinear = 0.01;   ///< m; corners this near to the edge without them are dropped
+  double collinear = 0.01;  ///< m; corners this near to the edge without them are dropped
   /// m; how far a part that touches itself draws back; a tenth of what surveys resolve
   static constexpr double opening = 0.01;
 

@@ -28,9 +28,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("cluster_step", o.cluster_step, "m", {0.05, 10},
               "Maximum lateral step of a side between neighbouring slices.")
       .source("docs/sweep.md: recall of true walls 0.89, against 0.87 with the reference's 1.5 m");
-  list.number("low_height", o.low_height, "m", {0, 100},
-              "Lines at less than this height above ground weigh sweep.low_weight, because cars and hedges are there.")
-      .source("reference implementation chordatlas: 4 m");
   list.number("thin_distance", o.thin_distance, "m", {0, 20},
               "Lines backed by an opposite line within this distance lose weight, as buses and fences do.")
       .source("reference implementation chordatlas: 4 m");
@@ -85,10 +82,6 @@ auto option_list(Options& o) -> base::OptionList {
       .advanced("chosen by hand; not measured");
   list.integer("setback_columns", o.setback_columns, "", {1, 1000}, "Minimum number of columns in a setback.")
       .advanced("reference implementation chordatlas: 2 m in columns of 0.2 m");
-  list.number("gutter_rise", o.gutter_rise, "m", {0, 50},
-              "Columns of a side without walls that begin more than this above the median gutter belong to a hip and "
-              "are left out.")
-      .advanced("chosen by hand; not measured");
   list.number("gutter_band", o.gutter_band, "m", {0, 20},
               "Height above a roof's lowest sample within which its gutter is measured.")
       .advanced("chosen by hand; not measured");
@@ -109,21 +102,6 @@ auto option_list(Options& o) -> base::OptionList {
   list.number("outline_spacing", o.outline_spacing, "m", {0.01, 10},
               "Spacing of the points at which a sweep-edge's distance to the footprints is tested.")
       .advanced("the cell of the evaluation grid; not measured");
-  list.number("low_margin", o.low_margin, "m", {0, 100},
-              "Low sides farther outside the footprints than this are hedges or cars.")
-      .advanced("chosen by hand; not measured");
-  list.number("maximum_scatter", o.maximum_scatter, "m", {0, 20},
-              "Sides whose wall feet scatter by more than this around their line are foliage.")
-      .advanced("chosen by hand; not measured");
-  list.number("roof_look_down", o.roof_look_down, "m", {0, 50},
-              "Height below a side without walls in which its continuation is looked for.")
-      .advanced("chosen by hand; not measured");
-  list.number("roof_look_sideways", o.roof_look_sideways, "m", {0, 50},
-              "Lateral distance within which the continuation of a side without walls is looked for.")
-      .advanced("chosen by hand; not measured");
-  list.number("twin_distance", o.twin_distance, "m", {0, 20},
-              "Of two sweep-edges nearer to each other than this, only the larger one is kept.")
-      .advanced("chosen by hand; not measured");
   list.number("registration_shared", o.registration_shared, "m", {0.01, 100},
               "Minimum length along which a wall and an outline's edge are compared.")
       .advanced("chosen by hand; not measured");

@@ -17,7 +17,6 @@ struct Options {
   double gis_offset = 0.75;    ///< m; edges seen up to this far outside a footprint's stand on it; 0: where seen
   double gis_inward = 0.25;    ///< m; … and up to this far inside: a scan sees eaves, but nothing through a wall
   double cluster_step = 0.8;   ///< m; greatest lateral step between neighbouring slices
-  double low_height = 4.0;     ///< m above ground; lines below weigh a tenth (cars, hedges)
   double thin_distance = 4.0;  ///< m; lines lose weight for anti-parallel lines this near (buses, fences)
   double setback = 1.0;        ///< m; wall feet this far off the median become sweep-edges of their own
 
@@ -48,9 +47,6 @@ struct Options {
 
   // Clusters of lines.
   double thin_turn = 0.7 * std::numbers::pi;  ///< rad; lines turned by more are opposite to each other
-  /// Weight of lines below sweep.low_height, and of sides that are mostly below it and away from the footprints.
-  /// Reference implementation chordatlas: 0.1.
-  double low_weight = 0.1;
   /// Number of slices up and down within which a cluster of lines continues. Reference implementation chordatlas: 2.
   std::size_t cluster_reach = 2;
   /// Minimum number of lines in a cluster. A metre of height at 0.2 m, with one slice missed; the reference
@@ -87,7 +83,6 @@ struct Options {
   double wall_share = 0.25;
   double untidy_height = 2.5;        ///< m above ground where cars and hedges hide the wall
   std::size_t setback_columns = 10;  ///< columns of a setback, at least
-  double gutter_rise = 1.0;          ///< m above the median gutter: the column is the end of a hip, not eaves
   double gutter_band = 0.5;          ///< m above the lowest sample: the gutter
   /// of the columns' lower ends, and 1 minus it of their upper ends, are a side's low and high; only told, in the layer
   /// of the sweep-edges
@@ -100,22 +95,9 @@ struct Options {
   double same_line_cosine = 0.98;  ///< cosine of 0.2 rad
   double outline_margin = 2.0;     ///< m outside the footprints; farther off stand trees and neighbours
   double outline_spacing = 0.25;   ///< m between the points of an edge that are tested
-  double low_margin = 0.75;        ///< m; a low thing farther outside is a hedge or a car
-  /// A side is low when more than this share of its area is below sweep.low_height. Chosen by hand; not measured.
-  double low_share = 0.8;
   /// Sides that keep less than this share of their length next to opposite lines count with that share alone. Chosen by
   /// hand; not measured.
   double thin_share = 0.4;
-  double maximum_scatter = 0.35;    ///< m of scatter: foliage
-  double roof_look_down = 1.0;      ///< m below a roof's lower end
-  double roof_look_sideways = 1.2;  ///< m
-  /// Cosine of the maximum angle between a roof and its continuation below. Chosen by hand; not measured.
-  double roof_cosine = 0.9;
-  /// Minimum share of a roof's line next to its continuation below. Chosen by hand; not measured.
-  double roof_share = 0.5;
-  double twin_distance = 0.5;  ///< m between edges that run along each other
-  /// Minimum share of a sweep-edge's length beside a larger one for it to be left out. Chosen by hand; not measured.
-  double twin_share = 0.8;
 
   // Registration of the footprints.
   /// Cosine of the maximum angle between a wall and the outline's edge it is compared with. Docs/decisions/0015.

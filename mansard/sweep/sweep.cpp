@@ -19,10 +19,9 @@ auto find_edges(const slice::SliceStack& stack, const block::Block& block, const
   detail::LineStack lines(stack.slices.size());
   base::parallel_for(stack.slices.size(), [&](std::size_t i) {
     if (run.cancelled()) return;
-    const bool low = stack.slices[i].height < block.ground + options.low_height;
     for (const auto& found : detail::find_lines(stack.slices[i].segments, options)) {
       const double length = geometry::length(found.end - found.start);
-      lines[i].push_back({{gis.aligned(found), i}, length, length, low});
+      lines[i].push_back({{gis.aligned(found), i}, length, length});
     }
     detail::weigh_thin(lines[i], options);
   });
@@ -33,7 +32,7 @@ auto find_edges(const slice::SliceStack& stack, const block::Block& block, const
   if (run.cancelled()) return {};
   run.report("sweep", block.name, 0.8);
 
-  auto edges = detail::select_edges(std::move(sides), lines, stack, block, options);
+  auto edges = detail::select_edges(std::move(sides), stack, block, options);
   edges.registration = detail::register_footprints(edges.edges, block, options);
   edges.edges = detail::put_on_footprints(edges.edges, block, edges.registration, options);
   detail::sort_longest_first(edges.edges);

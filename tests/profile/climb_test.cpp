@@ -134,7 +134,7 @@ TEST(Climb, measures_heights_from_the_ground_it_is_told) {
   EXPECT_EQ(found->points.back().height, 43);
 }
 
-TEST(Wall_position, looks_above_cars_and_hedges) {
+TEST(Wall_position, is_that_of_most_of_the_wall) {
   // Two metres of van before four metres of wall.
   const Climb climbed{{{-1, 0}, {-1, 2}, {0, 2}, {0, 6}}};
   EXPECT_EQ(wall_position(climbed, {}), 0.0);

@@ -360,7 +360,7 @@ TEST(Options, are_all_listed_with_their_defaults) {
   Options options;
   const auto list = mansard::profile::option_list(options);
   EXPECT_EQ(list.module(), "profile");
-  EXPECT_EQ(std::ranges::count(list.options(), false, &mansard::base::Option::advanced), 11);
+  EXPECT_EQ(std::ranges::count(list.options(), false, &mansard::base::Option::advanced), 10);
   ASSERT_NE(list.find("quality"), nullptr);
   EXPECT_EQ(list.find("quality")->get(), "high");
   EXPECT_TRUE(list.find("quality")->set("moderate").has_value());

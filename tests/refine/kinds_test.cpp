@@ -42,11 +42,15 @@ TEST(Kinds, are_found_with_their_direction_and_pitch) {
   const Plan gambrel = plan(house(), {steep, wall(4), steep, wall(4)}, 12);
   const Plan mansard = plan(house(), {steep, steep, steep, steep}, 12);
   const Plan pyramid = plan(house(), {roof(5, 3.0 / 4), roof(5, 3.0 / 6), roof(5, 3.0 / 4), roof(5, 3.0 / 6)}, 12);
+  const Plan half_hip = plan(house(), {roof(5, 0.8), roof(6.8, 0.8), roof(5, 0.8), roof(6.8, 0.8)}, 12);
+  const Profile end{{0, 0}, {0, 5}, {1.6, 6.28}, {1.6, 9}};
+  const Plan gablet = plan(house(), {roof(5, 0.8), end, roof(5, 0.8), end}, 12);
   const Plan level = flat_house(7);
   for (const auto& [kind, truth] :
        {std::pair{Kind::gable, along}, std::pair{Kind::gable, across}, std::pair{Kind::gable, uneven},
         std::pair{Kind::shed, shed}, std::pair{Kind::hip, hip}, std::pair{Kind::gambrel, gambrel},
-        std::pair{Kind::mansard, mansard}, std::pair{Kind::pyramid, pyramid}, std::pair{Kind::flat, level}}) {
+        std::pair{Kind::mansard, mansard}, std::pair{Kind::pyramid, pyramid}, std::pair{Kind::flat, level},
+        std::pair{Kind::half_hip, half_hip}, std::pair{Kind::gablet, gablet}}) {
     SCOPED_TRACE(std::string(refine::to_string(kind)));
     const auto mesh = scan({truth});
     const Plan made = roof_of(kind, flat_house(), mesh);

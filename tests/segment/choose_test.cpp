@@ -168,35 +168,13 @@ TEST(Choose, counts_a_sliver_along_the_outline) {
   EXPECT_EQ(c.run().parts.size(), 1U);
 }
 
-/// Replaces nothing: adds a slope over the west column of a map four cells high, from 0 m up to `top`.
-auto with_slope(geometry::Mesh mesh, double top) -> geometry::Mesh {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const auto& [x, z] : {std::pair(0.0, 0.0), std::pair(1.0, top)})
-    for (const double y : {0.0, 4.0}) mesh.vertices.push_back({x, y, z});
-  mesh.triangles.push_back({first, first + 2, first + 3});
-  mesh.triangles.push_back({first, first + 3, first + 1});
-  return mesh;
-}
-
-TEST(Choose, leaves_out_a_low_strip_only_where_it_is_a_blurred_wall_and_that_is_asked_for) {
+TEST(Choose, keeps_a_low_strip_along_the_outside) {
   // 0.8 m wide on average, 3.5 m high (median) beside 8 m.
   Case c{AsciiMap({"BAAAA", "BAAAA", "BAAAA", "BAAAA"}, 1), {{'A', 8}, {'B', 3.5}}, {"AB"}, {}};
   c.map.wall({1, 0}, {1, 4}, 0);
   const auto roof = c.run();
   EXPECT_EQ(roof.parts.size(), 2U) << "a rear extension";
   EXPECT_TRUE(roof.left_out.empty());
-
-  c.options.strip_share = 0.3;
-  const rays::Scene blurred(with_slope(c.map.roofs({{'A', 8}}), 7));
-  const auto wall = choose(c.map.arrangement, sweep_edges(8), c.map.block({"AB"}), blurred, c.options);
-  ASSERT_TRUE(wall);
-  ASSERT_EQ(wall->parts.size(), 1U);
-  EXPECT_NEAR(geometry::area(wall->parts[0].polygon), 16, 1e-6);
-  EXPECT_EQ(wall->warnings.at(0).code, "segment-part-small");
-  ASSERT_EQ(wall->left_out.size(), 1U);
-  EXPECT_EQ(wall->left_out[0].feature, 0U);
-  EXPECT_NEAR(wall->left_out[0].area, 4, 1e-9);
-  EXPECT_NEAR(wall->left_out[0].height, 3.5, 1.5) << "the median of a few places on a slope of 7 m";
 }
 
 TEST(Choose, gives_narrow_parts_to_their_neighbour_or_keeps_them) {

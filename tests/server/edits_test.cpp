@@ -97,7 +97,8 @@ TEST_F(Terrace, proposes_roofs_that_suit_the_scan_and_says_what_is_worse) {
         "/api/runs/run-1/roofs",
         {{"kind", kind}, {"parts", Json::array({{{"building", name}, {"part", part["id"]}, {"plan", part["plan"]}}})}});
   };
-  for (const auto* kind : {"flat", "shed", "gable", "hip", "pyramid", "gambrel", "mansard", "fitted"}) {
+  for (const auto* kind :
+       {"flat", "shed", "gable", "hip", "half-hip", "gablet", "pyramid", "gambrel", "mansard", "fitted"}) {
     const auto reply = ask(kind, before["id"]);
     ASSERT_EQ(reply.status, 200) << reply.text;
     const auto roof = reply.json()["roofs"][0];

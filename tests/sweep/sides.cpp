@@ -73,9 +73,9 @@ TEST(Alignment, squares_a_line_to_the_gis_but_prefers_parallel_edges) {
   EXPECT_LT(angle_between(slanted.aligned(turned(edge, 0.03)), {{0, 0}, {1.763, 10}}), 1e-9);
 }
 
-auto weighed(Segment2 s, std::size_t slice, bool low = false) -> WeighedLine {
+auto weighed(Segment2 s, std::size_t slice) -> WeighedLine {
   const double l = length(s.end - s.start);
-  return {{s, slice}, l, l, low};
+  return {{s, slice}, l, l};
 }
 
 TEST(BusFilter, takes_weight_off_the_sides_of_thin_things_only) {

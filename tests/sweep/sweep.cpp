@@ -204,18 +204,6 @@ TEST(FindEdges, runs_one_edge_along_a_facade_with_a_narrow_recess) {
   EXPECT_EQ(followers(found, {16, 0}, {0, 0}), 1);
 }
 
-TEST(FindEdges, leaves_no_twins_that_run_along_each_other) {
-  Town town(0.05);
-  town.ground({-6, -6}, {22, 16});
-  town.box({0, 0}, {16, 10}, 0, 5);
-  town.box({0.45, 0.45}, {15.55, 9.55}, 6.5, 12);  // set back less than a setback, with a storey unseen between
-  town.footprint({0, 0}, {16, 10});
-  const auto found = edges_of(town.block());
-  EXPECT_EQ(followers(found, {16, 0}, {0, 0}, 0.8), 1);
-  EXPECT_EQ(followers(found, {0, 0}, {0, 10}, 0.8), 1);
-  EXPECT_EQ(found.edges.size(), 4u);
-}
-
 TEST(FindEdges, leaves_out_what_stands_far_from_the_footprints) {
   auto town = house();
   town.box({0, 30}, {14, 38}, 0, 6);
@@ -274,7 +262,7 @@ TEST(FindEdges, reports_its_progress_in_order) {
 TEST(SweepOptions, are_listed_with_their_defaults) {
   Options options;
   const auto list = option_list(options);
-  EXPECT_EQ(std::ranges::count(list.options(), false, &base::Option::advanced), 11);
+  EXPECT_EQ(std::ranges::count(list.options(), false, &base::Option::advanced), 10);
   EXPECT_EQ(list.find("gamma")->get(), "10");
   EXPECT_EQ(list.find("gamma")->alias, "gamma");
   EXPECT_TRUE(list.find("gamma")->set("30"));

@@ -81,9 +81,9 @@ auto walk(std::span<const Piece> pieces, const Ends& ends, std::size_t start, do
   return points;
 }
 
-/// The piece nearest to the wall at a height that cars and hedges do not reach.
+/// The piece nearest to the foot of the wall.
 auto wall_start(std::span<const Piece> pieces, const Options& options, double ground) -> std::size_t {
-  const double target = ground + options.low_height + options.climb_above_low;
+  const double target = ground + options.climb_clear;
   std::size_t best = none;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -145,8 +145,7 @@ auto climb(std::span<const Piece> pieces, const Options& options, double ground)
   return result;
 }
 
-auto wall_position(const Climb& climb, const Options& options, double ground) -> std::optional<double> {
-  // Near the ground cars, hedges and shop fronts stand before the wall: what is seen there weighs little.
+auto wall_position(const Climb& climb, const Options& options) -> std::optional<double> {
   const double steep =
       options.wall_lean *
       geometry::tangent(options.vertical_angle);  // single noisy triangles lean more than the wall they make
@@ -156,10 +155,8 @@ auto wall_position(const Climb& climb, const Options& options, double ground) ->
     const SectionPoint a = climb.points[i], b = climb.points[i + 1];
     const double rise = b.height - a.height;
     if (rise <= 0 || std::abs(b.inward - a.inward) > steep * rise) continue;
-    const double weight =
-        (a.height + b.height) / 2 < ground + options.low_height ? options.wall_low_weight * rise : rise;
-    walls.emplace_back((a.inward + b.inward) / 2, weight);
-    total += weight;
+    walls.emplace_back((a.inward + b.inward) / 2, rise);
+    total += rise;
   }
   if (total < options.wall_minimum) return std::nullopt;
   std::ranges::sort(walls);

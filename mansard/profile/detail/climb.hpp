@@ -23,7 +23,6 @@ struct Climb {
 
 /// The wall's median distance inward of the foot, by length; metres. Nothing when the climb shows no wall_minimum of
 /// wall.
-[[nodiscard]] auto wall_position(const Climb& climb, const Options& options, double ground = 0)
-    -> std::optional<double>;
+[[nodiscard]] auto wall_position(const Climb& climb, const Options& options) -> std::optional<double>;
 
 }  // namespace mansard::profile::detail

@@ -47,10 +47,8 @@ auto slope_of(std::span<const SliceColumns> slices, std::size_t begin, std::size
 
 auto columns_of(std::span<const Piece> pieces, const Sample& sample, double base, std::optional<double> wall,
                 const Options& o) -> SliceColumns {
-  // The far wall and what leans over it belong to another edge.
-  const double depth = sample.reach > o.far_wall_from ? sample.reach - o.far_wall : sample.reach;
   SliceColumns columns{sample.along, {}, wall, 0, 0};
-  columns.heights.assign(static_cast<std::size_t>(std::max(0.0, depth) / o.column_width), hole);
+  columns.heights.assign(static_cast<std::size_t>(std::max(0.0, sample.reach) / o.column_width), hole);
   for (const Piece& piece : pieces) {
     const double u0 = std::min(piece.low.inward, piece.high.inward), u1 = std::max(piece.low.inward, piece.high.inward);
     if (u1 <= 0 || u1 == u0) continue;

@@ -244,14 +244,21 @@ class Alike {
       const auto own = *line_of(piece.roof.plan.profiles[line.profile], line.part);
       const double z = piece.site.base + own.at_edge;
       auto sums = line.sums;
-      const double counts = std::min(1.0, options_.alike.most_ground / sums[0]);
+      const double counts = told_by(sums[0]);
       for (double& sum : sums) sum *= counts;
       line.value = line.level ? values.add(z, sums[0]) : values.add(z, own.slope, sums);
     }
     for (auto& cap : caps_)
-      cap.value = values.add(pieces_[cap.piece].site.base + pieces_[cap.piece].roof.plan.cap,
-                             std::min(options_.alike.most_ground, cap.sum));
+      cap.value =
+          values.add(pieces_[cap.piece].site.base + pieces_[cap.piece].roof.plan.cap, told_by(cap.sum) * cap.sum);
     return values;
+  }
+
+  /// The share of some ground, m², that says what it says of a height without its bias: two heights are alike where
+  /// they differ by less than the root of price / ground, or by less than the bias.
+  [[nodiscard]] auto told_by(double ground) const -> double {
+    const double bias = options_.alike.bias;
+    return bias > 0 ? 1 / (1 + ground * bias * bias / options_.value_price) : 1;
   }
 
   /// m: the height of a ridge, and what of it each of four values makes.
@@ -420,7 +427,7 @@ class Alike {
       all[line.part] = RoofLine{at_[line.value] - base, line.level ? 0 : at_[line.value + 1]};
     }
     for (const auto& [profile, all] : moved) {
-      auto next = chained(plan.profiles[profile], all, options_);
+      auto next = chained(plan.profiles[profile], all);
       if (!next) return std::nullopt;
       plan.profiles[profile] = std::move(*next);
     }

@@ -70,7 +70,7 @@ auto with_bend(const Profile& profile, std::size_t part, const Bend& bend, const
     if (i != part) lines.push_back(line_of(profile, i));
     else lines.insert(lines.end(), {bend.low, bend.high});
   }
-  return chained(longer, lines, options);
+  return chained(longer, lines);
 }
 
 }  // namespace

@@ -143,11 +143,10 @@ auto errors_of(const Raster& raster, const std::vector<std::uint8_t>& mask, cons
              {outside.count, outside.rr, plain_error(outside)},
              {all.count, all.rr, plain_error(all)}};
   const auto improve = [](Error& error, double by) { error.best = std::min(error.best, by); };
-  const double least = options.ridge_min_area / raster.cell_area();
   for (const geometry::Point2 along : {ridges.axis, geometry::left_of(ridges.axis)}) {
     const Bins bins = bins_of(raster, mask, along, options.bin);
-    if (inside.count > least) improve(out.inside, ridge_over(bins.inside, bins.first, options));
-    if (outside.count > least) improve(out.outside, ridge_over(bins.outside, bins.first, options));
+    if (inside.count > 0) improve(out.inside, ridge_over(bins.inside, bins.first, options));
+    if (outside.count > 0) improve(out.outside, ridge_over(bins.outside, bins.first, options));
     std::vector<geometry::LineSums> both = bins.inside;
     for (std::size_t i = 0; i < both.size(); ++i) both[i] += bins.outside[i];
     improve(out.whole, ridge_over(both, bins.first, options));

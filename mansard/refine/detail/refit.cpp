@@ -144,13 +144,12 @@ auto rebuilt(const Profile& profile, const std::vector<std::vector<Look>>& looks
     if (line) line = refitted_line(*line, looks[i], options);
     lines.push_back(line);
   }
-  return chained(profile, lines, options);
+  return chained(profile, lines);
 }
 
 }  // namespace
 
-auto chained(const Profile& profile, std::span<const std::optional<RoofLine>> lines, const Options& options)
-    -> std::optional<Profile> {
+auto chained(const Profile& profile, std::span<const std::optional<RoofLine>> lines) -> std::optional<Profile> {
   Profile out{{0, 0}};
   const auto add = [&out](double inward, double height) { add_point(out, inward, height); };
   double last_inward = 0;
@@ -167,7 +166,6 @@ auto chained(const Profile& profile, std::span<const std::optional<RoofLine>> li
     double end = profile[i + 1].inward;
     if (next && std::abs(next->slope - line.slope) > parallel) {
       end = (line.at_edge - next->at_edge) / (next->slope - line.slope);
-      if (std::abs(end - profile[i + 1].inward) > options.refit.max_knot_move) return std::nullopt;
     }
     if (end < last_inward) return std::nullopt;
     last_inward = end;

@@ -38,8 +38,8 @@ inline void add_point(model::Profile& profile, double inward, double height) {
 
 /// The profile with other lines for its parts, as many as it has, none for walls. A profile is a chain: where its lines
 /// were joined they are joined again, walls between them stay where they stand. None where it would fall or lean out.
-[[nodiscard]] auto chained(const model::Profile& profile, std::span<const std::optional<RoofLine>> lines,
-                           const Options& options) -> std::optional<model::Profile>;
+[[nodiscard]] auto chained(const model::Profile& profile, std::span<const std::optional<RoofLine>> lines)
+    -> std::optional<model::Profile>;
 
 /// An edge of a plan.
 struct Edge {

@@ -98,19 +98,6 @@ auto height_of(const fracture::Arrangement& arrangement, const Evidence& evidenc
   return weighted.back().first;
 }
 
-/// The largest share of the heights that are within `level` of each other and at least `lowest`: near 1 over a roof,
-/// and level / height over a wall that a scan has blurred to a slope.
-auto level_share(const std::vector<WeightedHeight>& heights, double level, double lowest) -> double {
-  double most = 0, sum = 0;
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    sum += heights[i].second;
-    for (; heights[first].first < heights[i].first - level; ++first) sum -= heights[first].second;
-    if (heights[i].first - level / 2 >= lowest) most = std::max(most, sum);
-  }
-  return most / sum_of_areas(heights);
-}
-
 /// m² of the faces within their feature's footprint.
 auto area_within(const fracture::Arrangement& arrangement, const Evidence& evidence,
                  const std::vector<std::uint32_t>& faces, std::optional<std::size_t> feature) -> double {
@@ -143,16 +130,8 @@ auto reaches_outside(const fracture::Arrangement& arrangement, const std::vector
   });
 }
 
-/// What is known of a strip along the outside, less than half as high as its neighbour: either a roof, or the blurred
-/// wall between the neighbour and a footprint that is drawn too wide.
-auto is_blurred_wall(const fracture::Arrangement& arrangement, const Evidence& evidence,
-                     const std::vector<std::uint32_t>& faces, double ground, const Options& o) -> bool {
-  const auto heights = heights_of(arrangement, evidence, faces);
-  return level_share(heights, o.strip_level, ground + o.min_height) < o.strip_share;
-}
-
 /// Parts too small or too narrow to be a building of their own go to their neighbour in the same feature. A low strip
-/// along the outside stays, unless it is a blurred wall: that is left out.
+/// along the outside stays: it is a roof, or the blurred wall between its neighbour and a footprint drawn too wide.
 void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidence& evidence, LabelOfFace& label_of_face,
                          const Options& o, Segmentation& segmentation) {
   auto& warnings = segmentation.warnings;
@@ -174,7 +153,7 @@ void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidenc
     const auto [area, label] = *small.begin();
     small.erase(small.begin());
     const auto members = faces.at(label);
-    auto into = best_neighbour(arrangement, members, label_of_face, features);
+    const auto into = best_neighbour(arrangement, members, label_of_face, features);
     if (area >= o.smallest_part && !into) {
       kept.insert(label);
       continue;
@@ -183,16 +162,14 @@ void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidenc
     const double next = into ? height_of(arrangement, evidence, faces.at(*into)) : own;
     const bool apart = into && area >= o.smallest_part && reaches_outside(arrangement, members, label_of_face) &&
                        own - ground < o.low_share * (next - ground);
-    if (apart && !is_blurred_wall(arrangement, evidence, members, ground, o)) {
+    if (apart) {
       kept.insert(label);
       continue;
     }
-    if (apart) into.reset();
     if (!into)
-      segmentation.left_out.push_back(
-          {features.at(label), area_within(arrangement, evidence, members, features.at(label)), own - ground,
-           apart ? "the blurred wall of a part " + base::to_text(next - ground, 1) + " m high"
-                 : "too small for a part, without a neighbour"});
+      segmentation.left_out.push_back({features.at(label),
+                                       area_within(arrangement, evidence, members, features.at(label)), own - ground,
+                                       "too small for a part, without a neighbour"});
     for (const std::uint32_t f : members) label_of_face[f] = into;
     faces.erase(label);
     if (into) {
@@ -202,12 +179,11 @@ void take_up_small_parts(const fracture::Arrangement& arrangement, const Evidenc
       std::inplace_merge(joined.begin(), middle, joined.end());  // ascending, so that sums do not depend on the order
       measure(*into);
     }
-    warnings.push_back(base::warning("segment-part-small",
-                                     "a part of " + base::to_text(area, 2) + " m² " +
-                                         (into    ? "was joined to its neighbour"
-                                          : apart ? "was left out: the blurred wall of its neighbour"
-                                                  : "was left out: it has no neighbour to join"),
-                                     "face " + std::to_string(members.front())));
+    warnings.push_back(
+        base::warning("segment-part-small",
+                      "a part of " + base::to_text(area, 2) + " m² " +
+                          (into ? "was joined to its neighbour" : "was left out: it has no neighbour to join"),
+                      "face " + std::to_string(members.front())));
   }
 }
 

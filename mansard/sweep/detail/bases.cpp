@@ -175,15 +175,6 @@ void find_gutter(Column& column, const Options& o) {
 /// Column numbers that belong together, ascending.
 using Group = std::vector<std::size_t>;
 
-/// Columns of a roof that start high above its eaves.
-void drop_hips(const std::vector<Column>& columns, Group& used, const Options& o) {
-  if (used.empty()) return;
-  std::vector<double> lows;
-  for (const auto k : used) lows.push_back(columns[k].low);
-  const double eaves = base::mean_median(std::move(lows));
-  std::erase_if(used, [&](std::size_t k) { return columns[k].low > eaves + o.gutter_rise + height_rounding; });
-}
-
 /// Columns of cars and hedges in line with a wall that is taller than they.
 void drop_clutter(const std::vector<Column>& columns, Group& used, double tidy) {
   std::vector<double> highs;
@@ -253,7 +244,6 @@ auto find_bases(const std::vector<WeighedLine>& lines, const slice::SliceStack& 
       find_gutter(columns[k], o);
       if (columns[k].foot) used.push_back(k);
     }
-    drop_hips(columns, used, o);
   } else {
     drop_clutter(columns, used, ground + o.untidy_height);
   }
@@ -279,14 +269,12 @@ auto find_bases(const std::vector<WeighedLine>& lines, const slice::SliceStack& 
         highs.push_back(columns[k].high);
         area += static_cast<double>(columns[k].lines) * o.column_width * stack.interval;
       }
-      const double depth = base::mean_median(depths);
-      for (auto& d : depths) d = std::abs(d - depth);
+      const double depth = base::mean_median(std::move(depths));
       bases.push_back({{frame.point(start, depth), frame.point(end, depth)},
                        area,
                        base::percentile(std::move(lows), o.height_percentile),
                        base::percentile(std::move(highs), 1 - o.height_percentile),
-                       wall,
-                       base::mean_median(std::move(depths))});
+                       wall});
     }
   }
   return bases;

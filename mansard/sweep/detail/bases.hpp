@@ -14,7 +14,6 @@ struct Base {
   double area = 0;             ///< m²: its columns' share of the cluster
   double low = 0, high = 0;    ///< z, m
   bool wall = false;           ///< stands on a vertical part of a metre or more
-  double scatter = 0;          ///< m; the median distance of the columns' feet from the base
 };
 
 /// The main bases of a cluster and those that stand off its median by a setback; none when nothing has a length.

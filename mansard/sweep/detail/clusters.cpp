@@ -97,8 +97,7 @@ auto grow_clusters(const LineStack& stack, const Options& options, const base::R
   const auto at = [&](Place p) -> const WeighedLine& { return stack[p.slice][p.line]; };
   std::sort(order.begin(), order.end(), [&](Place p, Place q) {
     const auto &a = at(p), &b = at(q);
-    const double wa = a.good * (a.low ? options.low_weight : 1), wb = b.good * (b.low ? options.low_weight : 1);
-    if (in_units(wa) != in_units(wb)) return wa > wb;
+    if (in_units(a.good) != in_units(b.good)) return a.good > b.good;
     if (p.slice != q.slice) return p.slice < q.slice;
     return comes_before(a.line.segment, b.line.segment);
   });

@@ -13,7 +13,6 @@ struct WeighedLine {
   Line line;
   double length = 0;  ///< m
   double good = 0;    ///< m; what is left of the length after the bus filter
-  bool low = false;   ///< in the zone of cars and hedges
 };
 
 /// Lines by slice.
@@ -25,8 +24,8 @@ using LineStack = std::vector<std::vector<WeighedLine>>;
 /// Takes from each line's `good` length what faces the other side of a thin object (buses, fences) in its own slice.
 void weigh_thin(std::vector<WeighedLine>& lines, const Options& options);
 
-/// Grows clusters from the best line left (weighted length; ties by height and coordinates), so that the result does
-/// not depend on any order of its input. Lines from below upwards.
+/// Grows clusters from the best line left (what is left of its length; ties by height and coordinates), so that the
+/// result does not depend on any order of its input. Lines from below upwards.
 [[nodiscard]] auto grow_clusters(const LineStack& stack, const Options& options, const base::Run& run)
     -> std::vector<std::vector<WeighedLine>>;
 

@@ -9,11 +9,10 @@
 
 namespace mansard::sweep::detail {
 
-/// Puts sides together that stand on one line, drops those below gamma, those far from the outline and the upper parts
-/// of roofs; the rest stand on the ground as sweep-edges, longest first.
-[[nodiscard]] auto select_edges(std::vector<std::vector<WeighedLine>> sides, const LineStack& lines,
-                                const slice::SliceStack& stack, const block::Block& block, const Options& options)
-    -> SweepEdges;
+/// Puts sides together that stand on one line, drops those below gamma and those far from the outline; the rest stand
+/// on the ground as sweep-edges, longest first.
+[[nodiscard]] auto select_edges(std::vector<std::vector<WeighedLine>> sides, const slice::SliceStack& stack,
+                                const block::Block& block, const Options& options) -> SweepEdges;
 
 /// Ties by coordinates, then by cluster.
 void sort_longest_first(std::vector<SweepEdge>& edges);

@@ -37,6 +37,16 @@ test("a shed slopes one way, and a gambrel as a gable does", () => {
   expect(kinds(shaped(house(0, 10), "gambrel"))).toEqual(["slope", "wall", "slope", "wall"]);
 });
 
+test("ends of a half-hip and of a gablet are upright for half of the gable's height", () => {
+  const halfHip = shaped(house(0, 10), "half-hip");
+  const end = halfHip.profiles[halfHip.outer.profile_of_edge[1]!]!;
+  expect(end[1]![1]).toBeCloseTo(5 + 1.5); // the gable over 6 m at 45° is 3 m high
+  expect(end.at(-1)![0]).toBeGreaterThan(0);
+  const gablet = shaped(house(0, 10), "gablet");
+  expect(gablet.profiles[gablet.outer.profile_of_edge[3]!]!.slice(1, 3)).toEqual([[0, 5], [1.5, 6.5]]);
+  expect(kinds(shaped(house(0, 10), "half-hip", (i) => i === 1))).toEqual(["slope", "wall", "slope", "slope"]);
+});
+
 test("the pitch of the part stays", () => {
   const [, slope] = shaped(house(0, 10), "hip").profiles;
   expect((slope![2]![1] - slope![1]![1]) / (slope![2]![0] - slope![1]![0])).toBeCloseTo(1);

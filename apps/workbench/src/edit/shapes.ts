@@ -5,12 +5,14 @@ import { after } from "./plan";
 import { type Profile, gutterOf, pitchOf } from "./profile";
 import { distance, minus, unit } from "./vector";
 
-export type Shape = "flat" | "shed" | "gable" | "hip" | "pyramid" | "gambrel" | "mansard";
+export type Shape = "flat" | "shed" | "gable" | "hip" | "half-hip" | "gablet" | "pyramid" | "gambrel" | "mansard";
 export const shapes: { shape: Shape; name: string; meaning: string }[] = [
   { shape: "flat", name: "Flat", meaning: "A flat roof at the height of the gutter" },
   { shape: "shed", name: "Shed", meaning: "One slope, walls up to the roof on the other edges" },
   { shape: "gable", name: "Gable", meaning: "Slopes on two opposite sides, walls up to the roof across them" },
   { shape: "hip", name: "Hip", meaning: "Slopes on every edge without a neighbour" },
+  { shape: "half-hip", name: "Half-hip", meaning: "A gable roof, the tops of whose ends slope" },
+  { shape: "gablet", name: "Gablet", meaning: "A hip roof, the tops of whose ends are upright" },
   { shape: "pyramid", name: "Pyramid", meaning: "Slopes on every edge without a neighbour, up to one point" },
   { shape: "gambrel", name: "Gambrel", meaning: "A gable roof whose slopes are steep at the foot and shallow above" },
   { shape: "mansard", name: "Mansard", meaning: "A steep slope, and a shallow one above it, on every edge without a neighbour" },
@@ -20,7 +22,8 @@ const usualPitch = Math.tan((40 * Math.PI) / 180); // of new slopes, where the p
 const steep = { rise: 2.4, run: 0.85 }; // m; of a mansard roof: about 70°
 const shallow = Math.tan((20 * Math.PI) / 180);
 
-const median = (values: number[]) => [...values].sort((a, b) => a - b)[values.length >> 1];
+// The lower one of two: ends of a half-hip have higher gutters.
+const median = (values: number[]) => [...values].sort((a, b) => a - b)[(values.length - 1) >> 1];
 
 /** Height of the gutters of a part; of its top if it has none. */
 export function eavesOf(plan: Plan): number {
@@ -43,6 +46,9 @@ function alongLongest(points: readonly Point2[]): boolean[] {
     return !!own && !!along && Math.abs(own[0] * along[0] + own[1] * along[1]) > Math.SQRT1_2;
   });
 }
+
+const gabled: readonly Shape[] = ["gable", "half-hip", "gablet", "gambrel"];
+const ended: readonly Shape[] = ["half-hip", "gablet"]; // whose ends have slopes of their own
 
 /** What a new roof takes from elsewhere; otherwise from the part. */
 export interface Roof {
@@ -76,18 +82,30 @@ export function shaped(
       : [[0, 0], [0, eaves], [reach, eaves + pitch * reach]];
   // Higher than any ridge: slopes meet before.
   const cap = shape === "flat" ? eaves : slope.at(-1)![1];
+  // Half of the gable above an end is upright, below or above.
+  const endOf = (length: number): Profile => {
+    const half = length / 4;
+    return shape === "half-hip"
+      ? [[0, 0], [0, eaves + pitch * half], [reach, eaves + pitch * (half + reach)]]
+      : [[0, 0], [0, eaves], [half, eaves + pitch * half], [half, cap]];
+  };
   const wall: Profile = [[0, 0], [0, cap]];
   const first = shape === "shed" ? firstSlope(plan.outer.points, lengthwise, shared) : -1;
   const slopes = plan.outer.points.map((_, i) => {
     if (shape === "flat" || shared(i)) return false;
     if (shape === "shed") return i === first;
-    return (shape !== "gable" && shape !== "gambrel") || lengthwise[i]!;
+    return !gabled.includes(shape) || lengthwise[i]!;
+  });
+  const profiles = slopes.some(Boolean) ? [wall, slope] : [wall];
+  const profileOfEdge = slopes.map((is, i) => {
+    if (is || !ended.includes(shape) || shared(i) || !slopes.some(Boolean)) return is ? 1 : 0;
+    return profiles.push(endOf(distance(plan.outer.points[i]!, plan.outer.points[after(plan.outer, i)]!))) - 1;
   });
   return {
     ...plan,
     cap,
-    profiles: slopes.some(Boolean) ? [wall, slope] : [wall],
-    outer: { points: plan.outer.points, profile_of_edge: slopes.map((is) => (is ? 1 : 0)) },
+    profiles,
+    outer: { points: plan.outer.points, profile_of_edge: profileOfEdge },
     holes: plan.holes.map((h) => ({ points: h.points, profile_of_edge: h.points.map(() => 0) })),
   };
 }
