@@ -86,6 +86,18 @@ TEST(Alike, leaves_what_the_scan_shows_to_differ) {
   for (const auto& part : parts) EXPECT_NEAR(slope(part, 0), slope(part, 2), 1e-9);
 }
 
+TEST(Alike, takes_heights_for_equal_that_differ_by_less_than_their_bias) {
+  const auto apart = [](double bias) {
+    refine::Options options;
+    options.alike.bias = bias;
+    const auto parts = row({{5, 0.9, 8}, {5.15, 0.9, 8}}, options, 0.02);
+    return std::abs(gutter(parts[0], 0) - gutter(parts[1], 0));
+  };
+  EXPECT_NEAR(apart(0), 0.15, 0.03);
+  EXPECT_NEAR(apart(0.03), 0.15, 0.03);
+  EXPECT_LT(apart(0.5), 1e-9);
+}
+
 TEST(Alike, gives_houses_of_unlike_depth_one_ridge_height) {
   const auto ridge = [](double depth) { return 5 + 0.9 * depth / 2; };
   const double slope_of_second = (ridge(8) - 5) / (8.3 / 2);

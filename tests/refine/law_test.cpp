@@ -43,6 +43,14 @@ TEST(Law, margins_are_those_of_the_scans_edges_and_leave_something_of_narrow_roo
   EXPECT_NEAR(blurred.samples.margin_weight, 0.2, 0.01);
 }
 
+TEST(Law, heights_have_a_bias_where_edges_are_rounded) {
+  EXPECT_EQ(decided_by({}, scan(0.1, 10, 0, 0.1)).alike.bias, 0);
+  EXPECT_DOUBLE_EQ(decided_by({}, scan(0.1, 10, 0.4, 0.1)).alike.bias, 0.06);
+  auto points = scan(0.03, 0.05, 0.4, 0);
+  points.point_area = 0.05;
+  EXPECT_EQ(decided_by({}, points).alike.bias, 0);
+}
+
 TEST(Law, makes_nothing_smaller_than_the_scan_shows) {
   const auto exact = decided_by({}, scan(0, 1, 0, 0)), blurred = decided_by({}, scan(0.1, 10, 0.25, 0.1));
   EXPECT_DOUBLE_EQ(exact.cuts.min_step, 0.15);  // one and a half of the smallest detail
