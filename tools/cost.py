@@ -59,6 +59,10 @@ WHY = {
     "campus `derived-1`": "an outline derived from the scan, with many parts",
     "delft `b31bc9c58-00ba-11e6-b420-2bdcc4ab5d7f`": "a steep foot over an outline with piers of centimetres",
     "delft_points `b31bbd91c-00ba-11e6-b420-2bdcc4ab5d7f`": "many parts on 54 m²: pieces are searched, joined and searched once more",
+    "delft_points `b31bc2699-00ba-11e6-b420-2bdcc4ab5d7f`": "six parts on 50 m²: pieces are searched, joined and searched once more",
+    "delft_points `b31bcc27a-00ba-11e6-b420-2bdcc4ab5d7f`": "six parts on 52 m²: pieces are searched, joined and searched once more",
+    "delft_points `b31bbff63-00ba-11e6-b420-2bdcc4ab5d7f`": "roofs of four heights on 53 m²",
+    "zhongshan_L19 `B1`": CLUTTER,
     "delft_points `b31bbff68-00ba-11e6-b420-2bdcc4ab5d7f`": "many corners on 51 m²",
     "delft_points `b31bc2680-00ba-11e6-b420-2bdcc4ab5d7f`": "many corners on 59 m²",
 }

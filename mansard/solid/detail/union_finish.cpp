@@ -86,8 +86,13 @@ auto without_thin_corners(const model::Solid& solid, const std::vector<std::uint
   std::vector<model::Face> cut;
   const Point3 normal = fitted_plane(solid, face).normal;
   // Cut off at a wall that another solid of the building has, too, what is left of a roof would hang over that wall.
-  const auto overhangs = [&](const std::array<std::uint32_t, 3>& t, Point3 area) {
-    return normal.z > 0 && area.z <= 0 && std::ranges::any_of(t, [&](auto v) { return pinned[v] == of_a_solid; });
+  // And upright, to within what coordinates are rounded to, what is cut off would lie in the wall, over edges that end
+  // there.
+  constexpr double rounded = 1e-4;  // m
+  const auto is_of_wall = [&](const std::array<std::uint32_t, 3>& t, Point3 area, double length2) {
+    if (normal.z <= 0) return false;
+    if (area.z > 0) return area.z * area.z < rounded * rounded * length2;
+    return std::ranges::any_of(t, [&](auto v) { return pinned[v] == of_a_solid; });
   };
   auto& loop = face.loops[0];
   for (std::size_t i = 0; i < loop.size() && loop.size() > 3;) {
@@ -97,7 +102,7 @@ auto without_thin_corners(const model::Solid& solid, const std::vector<std::uint
     const double length2 = dot(along, along), at = dot(v, along);
     const Point3 area = cross(v, along);
     if (!(dot(area, normal) > 0) || !(at > 0 && at < length2) || dot(area, area) >= thin * thin * length2 ||
-        dot(area, area) == 0 || overhangs(t, area)) {
+        dot(area, area) == 0 || is_of_wall(t, area, length2)) {
       ++i;
       continue;
     }
