@@ -102,7 +102,7 @@ auto crossing_at(const RowSums& sums, const std::vector<int>& rows, int column, 
     const double middle = (sums.beside(row, column, -1, 0, near) + sums.beside(row, column, 1, 0, near)) / 2;
     known += 1;
     if (std::abs(left - right) >= least_step) steps += 1;
-    if (std::min(left, right) > middle) valleys += 1;
+    if (std::min(left, right) - middle >= options.lines.robust) valleys += 1;
   }
   return {known > 0 && steps > o.row_share * known, known > 0 && valleys > o.row_share * known};
 }
