@@ -119,7 +119,7 @@ auto codes() -> std::vector<base::Code> {
        "Report the input that led here.", 0},
       {"segment-part-small",
        "A footprint part under 1 m² or of less mean width than segment.narrow was joined to a neighbour of its "
-       "feature, or left out as the blurred wall of that neighbour.",
+       "feature, or left out where it has none.",
        "Nothing to do; if many, raise segment.phi or sweep.gamma. To keep narrow parts, lower segment.narrow.", 0},
       {"segment-part-repaired", "A footprint part's outline crossed itself and was redrawn, drawn back by 1 cm.",
        "Nothing to do unless the part looks wrong.", 0},

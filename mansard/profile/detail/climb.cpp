@@ -88,8 +88,8 @@ auto wall_start(std::span<const Piece> pieces, const Options& options, double gr
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& p = pieces[i];
-    if (p.high.height < ground + options.climb_clear) continue;
-    const double height = std::clamp(target, p.low.height, p.high.height);
+    if (p.high.height < target) continue;
+    const double height = std::max(target, p.low.height);
     const double rise = p.high.height - p.low.height;
     const double t = rise > 0 ? (height - p.low.height) / rise : 0;
     const double inward = std::abs(p.low.inward + t * (p.high.inward - p.low.inward));

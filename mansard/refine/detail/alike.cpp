@@ -254,8 +254,8 @@ class Alike {
     return values;
   }
 
-  /// The share of some ground, m², that says what it says of a height without its bias: two heights are alike where
-  /// they differ by less than the root of price / ground, or by less than the bias.
+  /// How much of some ground, m², counts for a height that has a bias: two heights are alike where they differ by less
+  /// than the root of price / ground, or by less than the bias.
   [[nodiscard]] auto told_by(double ground) const -> double {
     const double bias = options_.alike.bias, price = options_.value_price;
     return price > 0 ? 1 / (1 + ground * bias * bias / price) : 1;

@@ -81,18 +81,12 @@ auto heights_of(const fracture::Arrangement& arrangement, const Evidence& eviden
   return weighted;
 }
 
-auto sum_of_areas(const std::vector<WeightedHeight>& heights) -> double {
-  double total = 0;
-  for (const auto& [z, area] : heights) total += area;
-  return total;
-}
-
 /// Median, by area.
 auto height_of(const fracture::Arrangement& arrangement, const Evidence& evidence,
                const std::vector<std::uint32_t>& faces) -> double {
   const auto weighted = heights_of(arrangement, evidence, faces);
-  const double total = sum_of_areas(weighted);
-  double sum = 0;
+  double total = 0, sum = 0;
+  for (const auto& [z, area] : weighted) total += area;
   for (const auto& [z, area] : weighted)
     if ((sum += area) >= total / 2) return z;
   return weighted.back().first;

@@ -49,8 +49,7 @@ struct Origin {
   }
 };
 
-}  // namespace
-
+/// m sideways from one line to another, at the middle of where they run side by side; infinite where they do not.
 auto lateral_step(const Segment2& from, const Segment2& to) -> double {
   const Point2 d = normalised(from.end - from.start);
   const double l = length(from.end - from.start);
@@ -60,6 +59,8 @@ auto lateral_step(const Segment2& from, const Segment2& to) -> double {
   const double k = (0.5 * (s + t) - a) / (b - a);  // the middle of the shared part, as a parameter of `to`
   return std::abs(cross(d, to.start + k * (to.end - to.start) - from.start));
 }
+
+}  // namespace
 
 void weigh_thin(std::vector<WeighedLine>& lines, const Options& options) {
   const double thin_distance = options.thin_distance, opposite = geometry::cosine(options.thin_turn);

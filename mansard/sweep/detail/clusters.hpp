@@ -18,9 +18,6 @@ struct WeighedLine {
 /// Lines by slice.
 using LineStack = std::vector<std::vector<WeighedLine>>;
 
-/// m sideways from one line to another, at the middle of where they run side by side; infinite where they do not.
-[[nodiscard]] auto lateral_step(const geometry::Segment2& from, const geometry::Segment2& to) -> double;
-
 /// Takes from each line's `good` length what faces the other side of a thin object (buses, fences) in its own slice.
 void weigh_thin(std::vector<WeighedLine>& lines, const Options& options);
 

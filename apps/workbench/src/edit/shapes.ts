@@ -96,9 +96,10 @@ export function shaped(
     if (shape === "shed") return i === first;
     return !gabled.includes(shape) || lengthwise[i]!;
   });
-  const profiles = slopes.some(Boolean) ? [wall, slope] : [wall];
+  const sloped = slopes.some(Boolean);
+  const profiles = sloped ? [wall, slope] : [wall];
   const profileOfEdge = slopes.map((is, i) => {
-    if (is || !ended.includes(shape) || shared(i) || !slopes.some(Boolean)) return is ? 1 : 0;
+    if (is || !sloped || !ended.includes(shape) || shared(i)) return is ? 1 : 0;
     return profiles.push(endOf(distance(plan.outer.points[i]!, plan.outer.points[after(plan.outer, i)]!))) - 1;
   });
   return {
