@@ -111,8 +111,6 @@ struct Options {
 
   /// Planes moved to the samples on their own faces (refit).
   struct Refit {
-    /// Minimum slope (rise per run) that a refitted plane takes. A flatter roof is the cap's; not measured.
-    double min_slope = 0.03;
     /// A plane with fewer samples on its faces stays as it is. Chosen by hand; not measured.
     std::int64_t min_samples = 4;
     /// A cap with fewer samples on its faces stays as it is. Chosen by hand; not measured.

@@ -31,4 +31,18 @@ TEST(Refit, makes_no_roof_steeper_than_any_that_is_proposed) {
   EXPECT_NEAR(refitted(), 9, 1);
 }
 
+TEST(Refit, gives_gentle_roofs_their_pitch) {
+  const geometry::Ring ring = rectangle(0, 0, 14, 10);
+  const auto of = [&](double slope) { return plan(ring, {roof(4, slope), wall(30), wall(30), wall(30)}, 30); };
+  const auto refitted = [&](double slope) {
+    const auto mesh = scan({of(slope)});
+    const refine::Options options;
+    const auto site = refine::detail::look({ring, {}}, ground, mesh, options);
+    const auto judged = refine::detail::Judge(site, options, {}, {})(of(0.02));
+    return judged ? slope_of(refine::detail::refitted(*judged, site, options)) : 0;
+  };
+  EXPECT_NEAR(refitted(0.019), 0.019, 1e-4);  // 1.1°
+  EXPECT_NEAR(refitted(5e-4), 0.001, 1e-9);   // no profile is level
+}
+
 }  // namespace

@@ -22,6 +22,10 @@ using model::Profile;
 /// knot stays where it was.
 constexpr double parallel = 1e-6;
 
+/// Rise per run: the least that a plane keeps, since a profile has to rise to its end. A centimetre over a roof of 10
+/// m, less than the smallest detail; from 0.0001 to 0.005 roofs are as good (decision 171).
+constexpr double least_slope = 1e-3;
+
 /// Looks by profile and by the part of the profile that made the face they see.
 using Looks = std::vector<std::vector<std::vector<Look>>>;
 
@@ -130,9 +134,7 @@ auto refitted_line(const RoofLine& line, const std::vector<Look>& looks, const O
   if (std::ssize(looks) < options.refit.min_samples) return line;
   const auto free = line_through(looks, line, options.lines);
   RoofLine out = free.value_or(raised_line(looks, line, options.lines));
-  const double terrace = line.slope == 0 ? 0 : options.refit.min_slope;
-  out.slope = std::clamp(out.slope, terrace, std::max(terrace, options.forms.max_slope));
-  if (line.slope == 0) out.slope = 0;
+  out.slope = line.slope == 0 ? 0 : std::clamp(out.slope, least_slope, std::max(least_slope, options.forms.max_slope));
   return free && out.slope == free->slope ? out : raised_line(looks, out, options.lines);
 }
 
