@@ -304,9 +304,6 @@ struct Options {
     static constexpr std::int64_t rows_per_bin = 2;  ///< of the grid
     /// A line is a step or a valley where more than this share of its rows is. Chosen by hand; not measured.
     double row_share = 0.6;
-    /// A row has a step where it has at least this share of refine.cuts_min_step. Clear of the noise of one row; not
-    /// measured.
-    double step_share = 0.7;
   } splits;
 
   /// Simple surfaces that cuts are judged by (propose_surface).

@@ -92,8 +92,7 @@ struct Crossing {
 };
 
 auto crossing_at(const RowSums& sums, const std::vector<int>& rows, int column, const Options& options) -> Crossing {
-  const auto& o = options.splits;
-  const double least_step = o.step_share * options.cuts.min_step;
+  const double least = options.lines.robust, share = options.splits.row_share;
   const double near = options.samples.melt, far = reach_beside(options);
   double known = 0, steps = 0, valleys = 0;
   for (const int row : rows) {
@@ -101,10 +100,10 @@ auto crossing_at(const RowSums& sums, const std::vector<int>& rows, int column, 
     if (!std::isfinite(left + right)) continue;
     const double middle = (sums.beside(row, column, -1, 0, near) + sums.beside(row, column, 1, 0, near)) / 2;
     known += 1;
-    if (std::abs(left - right) >= least_step) steps += 1;
-    if (std::min(left, right) - middle >= options.lines.robust) valleys += 1;
+    if (std::abs(left - right) >= least) steps += 1;
+    if (std::min(left, right) - middle >= least) valleys += 1;
   }
-  return {known > 0 && steps > o.row_share * known, known > 0 && valleys > o.row_share * known};
+  return {known > 0 && steps > share * known, known > 0 && valleys > share * known};
 }
 
 /// Per line before column i that leaves enough on either side.
